@@ -1,0 +1,52 @@
+//! A compiled variant, and the binary interface that the generated `main()` and every device share.
+//!
+//! Storage buffers, all in descriptor set 0, hold f32 columns one after another (structure of arrays):
+//! component `c` of configuration `i` is at element `c * stride + i`.
+
+/// Binding of the input columns.
+pub const INPUTS_BINDING: u32 = 0;
+/// Binding of the output columns.
+pub const OUTPUTS_BINDING: u32 = 1;
+/// The kernel's invocations a workgroup, along x only.
+pub const LOCAL_SIZE: u32 = 64;
+
+/// The push constants, as three consecutive u32.
+///
+/// Invocation `g` evaluates configuration `first + g` if `g < count`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Range {
+    /// First configuration of this dispatch.
+    pub first: u32,
+    /// Configurations in this dispatch.
+    pub count: u32,
+    /// Configurations between one column and the next, for inputs and outputs alike.
+    pub stride: u32,
+}
+
+impl Range {
+    /// The push-constant block's bytes.
+    pub fn bytes(&self) -> [u8; 12] {
+        let mut bytes = [0; 12];
+        for (slot, word) in bytes
+            .chunks_exact_mut(4)
+            .zip([self.first, self.count, self.stride])
+        {
+            slot.copy_from_slice(&word.to_ne_bytes());
+        }
+        bytes
+    }
+}
+
+/// One variant as SPIR-V, ready for any device.
+#[derive(Clone, Debug)]
+pub struct Kernel {
+    /// `family/variant`, for messages and debug names.
+    pub id: String,
+    /// The module's words; its entry point is `main`.
+    pub spirv: Vec<u32>,
+    /// Number of input columns.
+    pub inputs: usize,
+    /// Number of output columns.
+    pub outputs: usize,
+}

@@ -1,0 +1,22 @@
+//! rootq audits the precision and measures the throughput of GPU shader variants.
+//!
+//! The way of the data, from left to right; every arrow is a module of this crate:
+//!
+//! ```text
+//! scenario --(seed, index)--> inputs f32 --> device runs variant --> outputs f32 -+
+//!  sample, family |              catalog, device                                  +--> judge --> summary, failures
+//!                 +--> oracle f64 with its own error bound -----------------------+     audit
+//!                        family, numeric
+//! summary + timings --> record (one folder a run) --> tables
+//!       bench
+//! ```
+//!
+//! Everything on that line is a pure function of (family, scenario, seed, index range, device), works on chunks of at
+//! most 2^20 configurations, and merges by integer addition and max.
+//!
+//! Who may use whom: `cli` -> `report` -> `record` -> `bench` -> `audit` -> `device`, `family` -> `catalog`, `sample`
+//! -> `numeric`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
+
+pub mod catalog;
+pub mod device;
+pub mod sample;
