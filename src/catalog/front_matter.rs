@@ -1,0 +1,160 @@
+//! The TOML block at the head of a variant's file.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::Error;
+
+const OPENING: &str = "/*---";
+const CLOSING: &str = "---*/";
+
+/// What a file declares of its variants.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FrontMatter {
+    /// What the text computes and what is special about it, one line.
+    pub summary: String,
+    /// Where it comes from: a publication, or `ours`.
+    pub source: String,
+    /// What else was tried to better it, and how that went.
+    pub tried: Option<String>,
+    /// The variants of this text, at least one.
+    #[serde(rename = "variant", default)]
+    pub variants: Vec<Declaration>,
+}
+
+/// One `[[variant]]`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Declaration {
+    pub name: String,
+    /// Replaces the file's summary.
+    pub summary: Option<String>,
+    /// Preprocessor definitions.
+    #[serde(default)]
+    pub defines: BTreeMap<String, Define>,
+    /// Every floating-point operation is decorated NoContraction, as if each were `precise`.
+    #[serde(default)]
+    pub precise: bool,
+}
+
+/// The value of a preprocessor definition.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Define {
+    Integer(i64),
+    Float(f64),
+    Text(String),
+}
+
+impl std::fmt::Display for Define {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Define::Integer(value) => write!(f, "{value}"),
+            // `{:?}` keeps the point: GLSL would read "1" as an integer.
+            Define::Float(value) => write!(f, "{value:?}"),
+            Define::Text(value) => f.write_str(value),
+        }
+    }
+}
+
+impl FrontMatter {
+    /// Reads the block at the head of `text`; errors name `file` and the line.
+    pub fn parse(file: &str, text: &str) -> Result<FrontMatter, Error> {
+        let fail = |line: usize, message: String| Error::FrontMatter {
+            file: file.to_owned(),
+            line,
+            message,
+        };
+        let Some(rest) = text.strip_prefix(OPENING) else {
+            return Err(fail(1, format!("front matter must begin the file: '{OPENING}'")));
+        };
+        let Some(end) = rest.find(CLOSING) else {
+            return Err(fail(1, format!("front matter is not closed by '{CLOSING}'")));
+        };
+        let block = &rest[..end];
+        let parsed: FrontMatter = toml::from_str(block).map_err(|error| {
+            let offset = error.span().map_or(0, |span| span.start);
+            let line = 1 + block[..offset.min(block.len())].matches('\n').count();
+            fail(line, error.message().replace('\n', " "))
+        })?;
+        let line_of = |name: &str| {
+            let quoted = format!("\"{name}\"");
+            1 + block
+                .find(&quoted)
+                .map_or(0, |at| block[..at].matches('\n').count())
+        };
+        if parsed.variants.is_empty() {
+            return Err(fail(1, "at least one [[variant]] is needed".to_owned()));
+        }
+        for (position, variant) in parsed.variants.iter().enumerate() {
+            let name = &variant.name;
+            if name.is_empty()
+                || !name
+                    .bytes()
+                    .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_')
+            {
+                return Err(fail(
+                    line_of(name),
+                    format!("variant name '{name}' must be lower-case letters, digits and '_'"),
+                ));
+            }
+            if parsed.variants[..position]
+                .iter()
+                .any(|earlier| earlier.name == *name)
+            {
+                return Err(fail(line_of(name), format!("variant '{name}' is declared twice")));
+            }
+        }
+        Ok(parsed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<FrontMatter, String> {
+        FrontMatter::parse("f.comp", text).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn reads_variants_and_defines() {
+        let text = "/*---\nsummary = \"s\"\nsource = \"o\"\n[[variant]]\nname = \"a\"\n[[variant]]\nname = \"b\"\n\
+                    defines = { N = 1, T = 1.0, W = \"x + y\" }\nprecise = true\n---*/\nfloat f;";
+        let read = parse(text).unwrap();
+        assert_eq!(read.variants[0].name, "a");
+        assert!(!read.variants[0].precise);
+        let defines: Vec<String> = read.variants[1].defines.values().map(Define::to_string).collect();
+        assert_eq!(defines, ["1", "1.0", "x + y"]);
+    }
+
+    #[test]
+    fn every_mistake_has_its_line() {
+        let cases = [
+            ("float f;", "f.comp:1: front matter must begin"),
+            ("/*---\nsummary = \"s\"\n", "f.comp:1: front matter is not closed"),
+            (
+                "/*---\nsummary = \"s\"\nsource = \"o\"\nauthor = \"x\"\n---*/",
+                "f.comp:4: unknown field",
+            ),
+            (
+                "/*---\nsummary = 3\nsource = \"o\"\n---*/",
+                "f.comp:2: invalid type",
+            ),
+            (
+                "/*---\nsummary = \"s\"\nsource = \"o\"\n---*/",
+                "f.comp:1: at least one [[variant]]",
+            ),
+            (
+                "/*---\nsummary = \"s\"\nsource = \"o\"\n[[variant]]\nname = \"A\"\n---*/",
+                "f.comp:5: variant name 'A'",
+            ),
+        ];
+        for (text, expected) in cases {
+            let error = parse(text).unwrap_err();
+            assert!(error.starts_with(expected), "{error}");
+        }
+    }
+}

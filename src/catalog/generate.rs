@@ -1,0 +1,85 @@
+//! The GLSL around a variant's function: result struct before it, buffers and `main()` after it.
+//!
+//! No binding is written by hand anywhere else; devices share only the constants of [`super::kernel`].
+
+use std::fmt::Write;
+
+use super::kernel::{INPUTS_BINDING, LOCAL_SIZE, OUTPUTS_BINDING};
+use super::{Define, Signature, Type};
+
+/// Text before the variant's own: version, extensions, definitions, result struct.
+pub(super) fn prologue<'a>(
+    signature: &Signature,
+    defines: impl Iterator<Item = (&'a String, &'a Define)>,
+) -> String {
+    let mut text = String::from(
+        "#version 450\n\
+         #extension GL_GOOGLE_include_directive : require\n\
+         #extension GL_GOOGLE_cpp_style_line_directive : require\n",
+    );
+    for (name, value) in defines {
+        _ = writeln!(text, "#define {name} {value}");
+    }
+    if signature.results.len() > 1 {
+        _ = write!(text, "struct {} {{", signature.result_type());
+        for field in &signature.results {
+            _ = write!(text, " {} {};", field.ty.glsl(), field.name);
+        }
+        text.push_str(" };\n");
+    }
+    text
+}
+
+/// Text after the variant's own: buffers, push constants and `main()`.
+pub(super) fn epilogue(signature: &Signature) -> String {
+    let mut text = format!(
+        "\nlayout(local_size_x = {LOCAL_SIZE}) in;\n\
+         layout(std430, set = 0, binding = {INPUTS_BINDING}) readonly buffer RootqInputs {{ float rootq_inputs[]; }};\n\
+         layout(std430, set = 0, binding = {OUTPUTS_BINDING}) writeonly buffer RootqOutputs {{ float rootq_outputs[]; }};\n\
+         layout(push_constant) uniform RootqRange {{ uint rootq_first; uint rootq_count; uint rootq_stride; }};\n\
+         void main() {{\n\
+         \x20   if (gl_GlobalInvocationID.x >= rootq_count) return;\n\
+         \x20   uint i = rootq_first + gl_GlobalInvocationID.x;\n"
+    );
+    let mut column = 0;
+    let arguments: Vec<String> = signature
+        .parameters
+        .iter()
+        .map(|parameter| {
+            let loads: Vec<String> = (column..column + parameter.ty.components())
+                .map(|c| format!("rootq_inputs[{c}u * rootq_stride + i]"))
+                .collect();
+            column += parameter.ty.components();
+            format!("{}({})", parameter.ty.glsl(), loads.join(", "))
+        })
+        .collect();
+    _ = writeln!(
+        text,
+        "    {} r = {}(",
+        signature.result_type(),
+        signature.function
+    );
+    _ = writeln!(text, "        {});", arguments.join(",\n        "));
+    let mut column = 0;
+    for field in &signature.results {
+        let value = if signature.results.len() == 1 {
+            "r".to_owned()
+        } else {
+            format!("r.{}", field.name)
+        };
+        for component in 0..field.ty.components() {
+            let component = match field.ty {
+                Type::Float => String::new(),
+                Type::Mat3 => format!("[{}][{}]", component / 3, component % 3),
+                Type::Vec2 | Type::Vec3 | Type::Vec4 => format!("[{component}]"),
+            };
+            _ = writeln!(
+                text,
+                "    rootq_outputs[{column}u * rootq_stride + i] = {value}{component};"
+            );
+            column += 1;
+        }
+    }
+    text.push_str("}\n");
+    text
+}
