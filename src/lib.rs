@@ -19,4 +19,6 @@
 
 pub mod catalog;
 pub mod device;
+pub mod family;
+pub mod numeric;
 pub mod sample;

@@ -1,0 +1,220 @@
+//! What a family is: typed columns, scenarios, landmark coordinates, and the oracle that defines truth.
+
+use crate::catalog::{Field, Signature, Type};
+use crate::numeric::spacing::{UNIT_ROUNDOFF, f32_spacing};
+use crate::sample::Draw;
+
+/// One mathematical problem with one definition of truth.
+pub trait Problem: Sync {
+    /// The family's name, also its folder's and its GLSL function's: `ellipse_axes`.
+    fn name(&self) -> &'static str;
+
+    /// What is computed, one line.
+    fn summary(&self) -> &'static str;
+
+    /// Parameters of the function, in column order.
+    fn inputs(&self) -> &'static [Field];
+
+    /// Results of the function, in column order.
+    fn outputs(&self) -> &'static [Output];
+
+    /// What must hold between results.
+    fn relations(&self) -> &'static [Relation] {
+        &[]
+    }
+
+    /// Distributions of configurations; the first is the one that renderers meet.
+    fn scenarios(&self) -> &'static [Scenario];
+
+    /// Coordinates along which a variant's failures are told apart.
+    fn landmarks(&self) -> &'static [Landmark];
+
+    /// The exact result for these f32 bits, with certainty and conditioning, at most 2 us.
+    ///
+    /// `input` has one value a column, all finite.
+    fn oracle(&self, input: &[f32], truth: &mut Truth);
+
+    /// The GLSL function's signature.
+    fn signature(&self) -> Signature {
+        Signature {
+            function: self.name(),
+            parameters: self.inputs().to_vec(),
+            results: self.outputs().iter().map(|output| output.field).collect(),
+        }
+    }
+
+    /// The scenario of that name.
+    fn scenario(&self, name: &str) -> Option<&'static Scenario> {
+        self.scenarios().iter().find(|scenario| scenario.name == name)
+    }
+}
+
+/// One result: its column, what it is, and how far off it may be.
+#[derive(Clone, Copy, Debug)]
+pub struct Output {
+    pub field: Field,
+    pub quantity: Quantity,
+    /// Errors beyond this are `inaccurate`, in the quantity's own measure.
+    pub tolerance: f64,
+    /// Whether tables show this output's errors beside the verdicts.
+    pub headline: bool,
+}
+
+impl Output {
+    pub const fn new(name: &'static str, ty: Type, quantity: Quantity, tolerance: f64) -> Self {
+        Output {
+            field: Field::new(name, ty),
+            quantity,
+            tolerance,
+            headline: false,
+        }
+    }
+
+    /// The output that tables show.
+    pub const fn headline(mut self) -> Self {
+        self.headline = true;
+        self
+    }
+}
+
+/// What a result is, and so how its error is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// A length, never negative: relative error.
+    Length,
+    /// A direction: angle between the two in radians, and a length of 1. With `sign_free`, both signs are right.
+    UnitVector { sign_free: bool },
+}
+
+/// What must hold between results, whatever the truth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// Two unit vectors, by position among the outputs, are orthogonal.
+    Orthogonal(usize, usize),
+}
+
+/// A named distribution of configurations.
+#[derive(Clone, Copy)]
+pub struct Scenario {
+    pub name: &'static str,
+    /// What it draws, one line.
+    pub summary: &'static str,
+    /// Fills one input row, finite values only.
+    pub draw: fn(&mut Draw, &mut [f32]),
+}
+
+/// A coordinate of configurations along which errors are split.
+#[derive(Clone, Copy)]
+pub struct Landmark {
+    pub name: &'static str,
+    /// What it is and where trouble lies, one line.
+    pub summary: &'static str,
+    /// Ascending; bin `k` holds `edges[k-1] <= coordinate < edges[k]`, so there is one bin more than edges. NaN goes last.
+    pub edges: &'static [f64],
+    pub coordinate: fn(&[f32], &Truth) -> f64,
+}
+
+impl Landmark {
+    /// The bin of a configuration.
+    pub fn bin(&self, input: &[f32], truth: &Truth) -> usize {
+        let coordinate = (self.coordinate)(input, truth);
+        self.edges
+            .partition_point(|edge| coordinate.is_nan() || *edge <= coordinate)
+    }
+}
+
+/// The most f32 components that all outputs of a family have together.
+pub const MAX_COMPONENTS: usize = 16;
+/// The most outputs of a family.
+pub const MAX_OUTPUTS: usize = 8;
+
+/// What an oracle says of one configuration.
+#[derive(Clone, Debug)]
+pub struct Truth {
+    components: [usize; MAX_OUTPUTS],
+    outputs: usize,
+    values: [f64; MAX_COMPONENTS],
+    sensitivities: [f64; MAX_OUTPUTS],
+    worst_bound: f64,
+    escalated: bool,
+}
+
+impl Truth {
+    /// An empty truth for these outputs, to be filled by an oracle again and again.
+    pub fn new(outputs: &[Output]) -> Self {
+        let mut components = [0; MAX_OUTPUTS];
+        for (slot, output) in components.iter_mut().zip(outputs) {
+            *slot = output.field.ty.components();
+        }
+        Truth {
+            components,
+            outputs: outputs.len(),
+            values: [0.0; MAX_COMPONENTS],
+            sensitivities: [0.0; MAX_OUTPUTS],
+            worst_bound: 0.0,
+            escalated: false,
+        }
+    }
+
+    /// Forgets the last configuration.
+    pub fn clear(&mut self) {
+        self.worst_bound = 0.0;
+        self.escalated = false;
+    }
+
+    /// Sets a scalar output. `bound` is the absolute error bound of `value`; `sensitivity` the change of the exact value
+    /// for a relative change of every input by one (to first order, in the worst direction).
+    pub fn scalar(&mut self, output: usize, value: f64, bound: f64, sensitivity: f64) {
+        self.values[self.offset(output)] = value;
+        self.sensitivities[output] = sensitivity;
+        self.worst_bound = self.worst_bound.max(bound / f32_spacing(value));
+    }
+
+    /// Sets a unit vector; bound and sensitivity are angles in radians. An infinite sensitivity says that the direction
+    /// is not defined by the inputs: any unit vector that keeps the family's relations is right.
+    pub fn unit_vector(&mut self, output: usize, value: glam::DVec3, bound: f64, sensitivity: f64) {
+        let offset = self.offset(output);
+        self.values[offset..offset + 3].copy_from_slice(&value.to_array());
+        self.sensitivities[output] = sensitivity;
+        if sensitivity.is_finite() {
+            self.worst_bound = self.worst_bound.max(bound / UNIT_ROUNDOFF);
+        }
+    }
+
+    /// Notes that plain f64 did not do.
+    pub fn escalate(&mut self) {
+        self.escalated = true;
+    }
+
+    /// Whether plain f64 did not do.
+    pub fn escalated(&self) -> bool {
+        self.escalated
+    }
+
+    /// The largest error bound of any output in units of its f32 spacing (of 2^-24 rad for directions).
+    pub fn worst_bound(&self) -> f64 {
+        self.worst_bound
+    }
+
+    /// All components in column order.
+    pub fn values(&self) -> &[f64] {
+        &self.values[..self.offset(self.outputs)]
+    }
+
+    /// The components of one output.
+    pub fn output(&self, output: usize) -> &[f64] {
+        &self.values[self.offset(output)..][..self.components[output]]
+    }
+
+    /// Sensitivities, one an output.
+    pub fn sensitivities(&self) -> &[f64] {
+        &self.sensitivities[..self.outputs]
+    }
+
+    fn offset(&self, output: usize) -> usize {
+        self.components[..output].iter().sum()
+    }
+}
+
+/// An oracle is certified where its bound is at most this much of the f32 spacing.
+pub const CERTIFIED: f64 = 1.0 / 16.0;

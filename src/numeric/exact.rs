@@ -1,0 +1,84 @@
+//! Sums of f64 whose rounding error does not depend on cancellation.
+
+/// The sum of `terms`, rounded once: relative error at most 2^-53 however much cancels.
+///
+/// Shewchuk's growing expansion of non-overlapping partial sums (Discrete Comput. Geom. 18, 1997), with the final
+/// rounding corrected for ties. The terms and their sums must stay finite.
+pub fn sum(terms: &[f64]) -> f64 {
+    let mut partials = [0.0f64; 16];
+    let mut used = 0;
+    for &term in terms {
+        let mut carried = term;
+        let mut kept = 0;
+        for position in 0..used {
+            let (high, low) = two_sum(carried, partials[position]);
+            if low != 0.0 {
+                partials[kept] = low;
+                kept += 1;
+            }
+            carried = high;
+        }
+        partials[kept] = carried;
+        used = kept + 1;
+    }
+    let Some((&last, rest)) = partials[..used].split_last() else {
+        return 0.0;
+    };
+    let mut total = last;
+    let mut below = rest.iter().rev();
+    for &next in below.by_ref() {
+        let (high, low) = two_sum(total, next);
+        total = high;
+        if low != 0.0 {
+            // Half-way cases round by the sign of what lies below.
+            if let Some(&further) = below.next()
+                && (low < 0.0) == (further < 0.0)
+            {
+                let (twice, candidate) = (2.0 * low, total + 2.0 * low);
+                if candidate - total == twice {
+                    total = candidate;
+                }
+            }
+            break;
+        }
+    }
+    total
+}
+
+/// a + b as an exact pair: the rounded sum and its rounding error (Knuth).
+pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let of_b = sum - a;
+    (sum, (a - (sum - of_b)) + (b - of_b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn cancellation_costs_nothing() {
+        assert_eq!(sum(&[1e100, 1.0, -1e100, 1e-100]), 1.0);
+        assert_eq!(sum(&[1.0, 2f64.powi(-120), -1.0]), 2f64.powi(-120));
+        assert_eq!(sum(&[]), 0.0);
+    }
+
+    #[test]
+    fn a_tie_rounds_by_what_lies_below() {
+        let half_ulp = f64::EPSILON / 2.0;
+        assert_eq!(sum(&[1.0, half_ulp, 1e-30]), 1.0 + f64::EPSILON);
+        assert_eq!(sum(&[1.0, half_ulp, -1e-30]), 1.0);
+    }
+
+    proptest! {
+        /// The integers of a common scale are the independent arithmetic here.
+        #[test]
+        fn agrees_with_integers(terms in prop::collection::vec((-(1i64 << 52)..(1i64 << 52), 0u32..50), 1..12)) {
+            let exact: i128 = terms.iter().map(|(mantissa, shift)| i128::from(*mantissa) << shift).sum();
+            let floats: Vec<f64> =
+                terms.iter().map(|(mantissa, shift)| *mantissa as f64 * 2f64.powi(*shift as i32)).collect();
+            prop_assert_eq!(sum(&floats), exact as f64);
+        }
+    }
+}
