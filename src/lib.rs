@@ -17,6 +17,7 @@
 //! Who may use whom: `cli` -> `report` -> `record` -> `bench` -> `audit` -> `device`, `family` -> `catalog`, `sample`
 //! -> `numeric`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
 
+pub mod audit;
 pub mod catalog;
 pub mod device;
 pub mod family;

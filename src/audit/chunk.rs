@@ -1,0 +1,165 @@
+//! One chunk of a scenario: inputs and truth, a pure function of (family, scenario, seed, index range).
+
+use rayon::prelude::*;
+
+use super::summary::Row;
+use crate::family::{CERTIFIED, Problem, Scenario, Truth};
+use crate::sample::Stream;
+
+/// The most configurations of a chunk.
+pub const MAX_CHUNK: usize = 1 << 20;
+
+/// Rows drawn and judged by one task.
+pub(super) const BLOCK: usize = 4096;
+
+/// Inputs and truth of consecutive configurations.
+#[derive(Debug)]
+pub struct Chunk {
+    first: u64,
+    rows: usize,
+    widths: Widths,
+    /// Row-major.
+    inputs: Vec<f32>,
+    truth: Vec<f64>,
+    sensitivities: Vec<f64>,
+    bins: Vec<u8>,
+    /// What the oracle said of its own certainty.
+    pub oracle: OracleSummary,
+}
+
+/// The oracle's certainty over many configurations; merges like everything else.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OracleSummary {
+    pub configurations: u64,
+    /// Plain f64 did not do.
+    pub escalations: u64,
+    /// Not certified even so: the bound is above 1/16 of the f32 spacing.
+    pub uncertified: u64,
+    /// Largest error bound in units of the f32 spacing.
+    pub worst_bound: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Widths {
+    inputs: usize,
+    truth: usize,
+    sensitivities: usize,
+    bins: usize,
+}
+
+impl Chunk {
+    /// Draws the configurations `first .. first + rows` of a scenario and computes their truth.
+    pub fn draw(problem: &dyn Problem, scenario: &Scenario, seed: u64, first: u64, rows: usize) -> Self {
+        let stream = Stream::new(seed, &format!("{}/{}", problem.name(), scenario.name));
+        let width: usize = problem.inputs().iter().map(|field| field.ty.components()).sum();
+        let mut inputs = vec![0.0; rows * width];
+        inputs
+            .par_chunks_mut(BLOCK * width)
+            .enumerate()
+            .for_each(|(block, inputs)| {
+                let count = inputs.len() / width;
+                stream.visit(first + (block * BLOCK) as u64, count, |row, draw| {
+                    (scenario.draw)(draw, &mut inputs[row * width..][..width]);
+                });
+            });
+        Chunk::of_inputs(problem, first, inputs)
+    }
+
+    /// The truth of given inputs, row-major and finite.
+    pub fn of_inputs(problem: &dyn Problem, first: u64, inputs: Vec<f32>) -> Self {
+        let signature = problem.signature();
+        let widths = Widths {
+            inputs: signature.input_columns().len(),
+            truth: signature.output_columns().len(),
+            sensitivities: problem.outputs().len(),
+            bins: problem.landmarks().len(),
+        };
+        let rows = inputs.len() / widths.inputs;
+        let mut truth = vec![0.0; rows * widths.truth];
+        let mut sensitivities = vec![0.0; rows * widths.sensitivities];
+        let mut bins = vec![0; rows * widths.bins];
+        // A family without landmarks has empty bins, which cannot be chunked by zero.
+        let oracle = inputs
+            .par_chunks(BLOCK * widths.inputs)
+            .zip(truth.par_chunks_mut(BLOCK * widths.truth))
+            .zip(sensitivities.par_chunks_mut(BLOCK * widths.sensitivities))
+            .zip(bins.par_chunks_mut((BLOCK * widths.bins).max(1)))
+            .map(|(((inputs, truth), sensitivities), bins)| {
+                let mut oracle = OracleSummary::default();
+                let mut scratch = Truth::new(problem.outputs());
+                for (row, input) in inputs.chunks_exact(widths.inputs).enumerate() {
+                    scratch.clear();
+                    problem.oracle(input, &mut scratch);
+                    oracle.add(&scratch);
+                    truth[row * widths.truth..][..widths.truth].copy_from_slice(scratch.values());
+                    sensitivities[row * widths.sensitivities..][..widths.sensitivities]
+                        .copy_from_slice(scratch.sensitivities());
+                    for (bin, landmark) in bins[row * widths.bins..].iter_mut().zip(problem.landmarks()) {
+                        *bin = landmark.bin(input, &scratch) as u8;
+                    }
+                }
+                oracle
+            })
+            .reduce(OracleSummary::default, OracleSummary::merged);
+        Chunk {
+            first,
+            rows,
+            widths,
+            inputs,
+            truth,
+            sensitivities,
+            bins,
+            oracle,
+        }
+    }
+
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Row-major inputs.
+    pub fn inputs(&self) -> &[f32] {
+        &self.inputs
+    }
+
+    /// The exact components of one configuration, in column order.
+    pub fn truth(&self, row: usize) -> &[f64] {
+        &self.truth[row * self.widths.truth..][..self.widths.truth]
+    }
+
+    pub(super) fn row(&self, row: usize) -> Row<'_> {
+        let Widths {
+            inputs,
+            sensitivities,
+            bins,
+            ..
+        } = self.widths;
+        Row {
+            index: self.first + row as u64,
+            inputs: &self.inputs[row * inputs..][..inputs],
+            truth: self.truth(row),
+            sensitivities: &self.sensitivities[row * sensitivities..][..sensitivities],
+            bins: &self.bins[row * bins..][..bins],
+        }
+    }
+}
+
+impl OracleSummary {
+    fn add(&mut self, truth: &Truth) {
+        self.configurations += 1;
+        self.escalations += u64::from(truth.escalated());
+        self.uncertified += u64::from(!(truth.worst_bound() <= CERTIFIED));
+        self.worst_bound = self.worst_bound.max(truth.worst_bound());
+    }
+
+    /// The two parts together.
+    #[must_use]
+    pub fn merged(self, other: OracleSummary) -> OracleSummary {
+        OracleSummary {
+            configurations: self.configurations + other.configurations,
+            escalations: self.escalations + other.escalations,
+            uncertified: self.uncertified + other.uncertified,
+            worst_bound: self.worst_bound.max(other.worst_bound),
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! Compares one result with the truth, by what the result is.
+
+use glam::DVec3;
+
+use super::Verdict;
+use crate::family::{Output, Quantity, Relation};
+use crate::numeric::spacing::{UNIT_ROUNDOFF, f16_spacing, f32_spacing};
+
+/// An error up to this many times what one rounding of each input does is blamed on the problem: an algorithm that is
+/// backward stable commits a handful of such roundings on its way.
+pub const EXPLAINED_BY_ROUNDING: f64 = 4.0;
+
+/// The error of one output of one configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measure {
+    pub verdict: Verdict,
+    /// In the quantity's own measure: relative for a length, radians for a direction. Infinite if not finite.
+    pub error: f64,
+    /// Distance from the unrounded truth in units of the f32 spacing there; for a direction in units of 2^-24 rad.
+    pub ulp: f64,
+    /// The error over what rounding every input once (relative 2^-24) would do at most.
+    pub conditioned: f64,
+    /// Steps of a display or frame buffer: of 8 bits, of 10 bits, of binary16.
+    pub steps: [f64; 3],
+}
+
+impl Measure {
+    fn failed(verdict: Verdict) -> Self {
+        let worst = f64::INFINITY;
+        Measure {
+            verdict,
+            error: worst,
+            ulp: worst,
+            conditioned: worst,
+            steps: [worst; 3],
+        }
+    }
+
+    /// From an error in the quantity's own measure, the same in absolute terms, and the spacings there.
+    fn graded(error: f64, absolute: f64, spacings: [f64; 2], output: &Output, sensitivity: f64) -> Self {
+        let explained = UNIT_ROUNDOFF * sensitivity;
+        let verdict = if error <= output.tolerance {
+            Verdict::Ok
+        } else if absolute <= EXPLAINED_BY_ROUNDING * explained {
+            Verdict::IllConditioned
+        } else {
+            Verdict::Inaccurate
+        };
+        let conditioned = if absolute == 0.0 {
+            0.0
+        } else {
+            absolute / explained
+        };
+        let [f32_step, f16_step] = spacings;
+        let steps = [255.0 * error, 1023.0 * error, absolute / f16_step];
+        Measure {
+            verdict,
+            error,
+            ulp: absolute / f32_step,
+            conditioned,
+            steps,
+        }
+    }
+}
+
+/// Judges one output: its components `values` against the exact `truth`.
+///
+/// `sensitivity` is the oracle's: the change of the truth for a relative change of every input by one.
+pub fn measure(output: &Output, values: &[f32], truth: &[f64], sensitivity: f64) -> Measure {
+    match output.quantity {
+        Quantity::Length => length(output, values[0], truth[0], sensitivity),
+        Quantity::UnitVector { sign_free } => {
+            let value = DVec3::new(f64::from(values[0]), f64::from(values[1]), f64::from(values[2]));
+            unit_vector(output, sign_free, value, DVec3::from_slice(truth), sensitivity)
+        }
+    }
+}
+
+fn length(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Measure {
+    /// What rounds to infinity: the largest f32 and half its spacing.
+    const OVERFLOW: f64 = f32::MAX as f64 * (1.0 + UNIT_ROUNDOFF / 2.0);
+    if !value.is_finite() {
+        let overflows = value == f32::INFINITY && truth >= OVERFLOW;
+        return if overflows {
+            Measure::graded(0.0, 0.0, [1.0, 1.0], output, sensitivity)
+        } else {
+            Measure::failed(Verdict::NonFinite)
+        };
+    }
+    // A device may flush subnormals to zero: an error of up to the smallest normal number is free.
+    const FLUSH: f64 = f32::MIN_POSITIVE as f64;
+    let absolute = (f64::from(value) - truth).abs();
+    let error = (absolute - FLUSH).max(0.0) / truth.max(FLUSH);
+    let mut measure = Measure::graded(
+        error,
+        absolute,
+        [f32_spacing(truth), f16_spacing(truth)],
+        output,
+        sensitivity,
+    );
+    if value < 0.0 && measure.verdict != Verdict::Ok {
+        measure.verdict = Verdict::WrongSign;
+    }
+    measure
+}
+
+fn unit_vector(output: &Output, sign_free: bool, value: DVec3, truth: DVec3, sensitivity: f64) -> Measure {
+    if !value.is_finite() {
+        return Measure::failed(Verdict::NonFinite);
+    }
+    let norm = value.length();
+    let angle = if sensitivity.is_infinite() {
+        0.0
+    } else {
+        let dot = value.dot(truth);
+        let dot = if sign_free { dot.abs() } else { dot };
+        f64::atan2(value.cross(truth).length(), dot)
+    };
+    // binary16 has steps of 2^-11 just below 1.
+    let mut measure = Measure::graded(angle, angle, [UNIT_ROUNDOFF, 1.0 / 2048.0], output, sensitivity);
+    if (norm - 1.0).abs() > output.tolerance {
+        measure.verdict = Verdict::NotUnit;
+    }
+    measure
+}
+
+/// Whether a relation holds between the outputs' values, within the coarser of their tolerances.
+///
+/// `values` gives the components of an output by its position.
+pub(super) fn holds<'a>(relation: Relation, outputs: &[Output], values: impl Fn(usize) -> &'a [f32]) -> bool {
+    match relation {
+        Relation::Orthogonal(a, b) => {
+            let vector = |output: usize| {
+                let v = values(output);
+                DVec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))
+            };
+            let (u, v) = (vector(a), vector(b));
+            let tolerance = outputs[a].tolerance.max(outputs[b].tolerance);
+            // A zero or non-finite vector has its own verdict.
+            !(u.dot(v).abs() > tolerance * u.length() * v.length())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalog::Type;
+
+    const LENGTH: Output = Output::new("l", Type::Float, Quantity::Length, 1e-3);
+    const AXIS: Output = Output::new("a", Type::Vec3, Quantity::UnitVector { sign_free: true }, 1e-3);
+    const WAY: Output = Output::new("w", Type::Vec3, Quantity::UnitVector { sign_free: false }, 1e-3);
+
+    fn length_verdict(value: f32, truth: f64, sensitivity: f64) -> Verdict {
+        measure(&LENGTH, &[value], &[truth], sensitivity).verdict
+    }
+
+    #[test]
+    fn lengths() {
+        assert_eq!(length_verdict(1.0, 1.0, 1.0), Verdict::Ok);
+        assert_eq!(length_verdict(1.0009, 1.0, 1.0), Verdict::Ok);
+        assert_eq!(length_verdict(1.0011, 1.0, 1.0), Verdict::Inaccurate);
+        assert_eq!(
+            length_verdict(1.0011, 1.0, 0.0012 / (4.0 * UNIT_ROUNDOFF)),
+            Verdict::IllConditioned
+        );
+        assert_eq!(length_verdict(-1.0, 1.0, 1.0), Verdict::WrongSign);
+        assert_eq!(length_verdict(-0.0, 0.0, 0.0), Verdict::Ok);
+        assert_eq!(length_verdict(f32::NAN, 1.0, f64::INFINITY), Verdict::NonFinite);
+        assert_eq!(length_verdict(f32::INFINITY, 1.0, 1.0), Verdict::NonFinite);
+    }
+
+    #[test]
+    fn flushing_and_overflow_are_allowed() {
+        assert_eq!(length_verdict(0.0, 1e-39, 1e-39), Verdict::Ok);
+        assert_eq!(length_verdict(0.0, 1e-37, 1e-37), Verdict::Inaccurate);
+        assert_eq!(length_verdict(f32::INFINITY, 4e38, 4e38), Verdict::Ok);
+        assert_eq!(length_verdict(f32::INFINITY, 3.4e38, 3.4e38), Verdict::NonFinite);
+    }
+
+    #[test]
+    fn ulps_are_fractions_of_the_spacing_at_the_unrounded_truth() {
+        let truth = 1.0 + 0.25 * f64::from(f32::EPSILON);
+        assert_eq!(measure(&LENGTH, &[1.0], &[truth], 1.0).ulp, 0.25);
+        // Just below 1 the spacing is half of that above.
+        let truth = 1.0 - 0.25 * f64::from(f32::EPSILON);
+        assert_eq!(measure(&LENGTH, &[1.0], &[truth], 1.0).ulp, 0.5);
+    }
+
+    #[test]
+    fn directions() {
+        let verdict = |output: &Output, value: [f32; 3], sensitivity| {
+            measure(output, &value, &[0.0, 0.0, 1.0], sensitivity).verdict
+        };
+        assert_eq!(verdict(&AXIS, [0.0, 0.0, -1.0], 1.0), Verdict::Ok);
+        assert_eq!(verdict(&WAY, [0.0, 0.0, -1.0], 1.0), Verdict::Inaccurate);
+        assert_eq!(verdict(&AXIS, [0.002, 0.0, 1.0], 1.0), Verdict::Inaccurate);
+        assert_eq!(
+            verdict(&AXIS, [0.002, 0.0, 1.0], 0.01 / UNIT_ROUNDOFF),
+            Verdict::IllConditioned
+        );
+        assert_eq!(verdict(&AXIS, [1.0, 0.0, 0.0], f64::INFINITY), Verdict::Ok);
+        assert_eq!(verdict(&AXIS, [0.0, 0.0, 1.1], 1.0), Verdict::NotUnit);
+        assert_eq!(verdict(&AXIS, [0.0, 0.0, 0.0], f64::INFINITY), Verdict::NotUnit);
+        assert_eq!(
+            verdict(&AXIS, [0.0, f32::NAN, 1.0], f64::INFINITY),
+            Verdict::NonFinite
+        );
+        let angle = measure(&AXIS, &[1.0, 0.0, 1.0], &[0.0, 0.0, 1.0], 1.0).error;
+        assert!((angle - std::f64::consts::FRAC_PI_4).abs() < 1e-12);
+    }
+
+    #[test]
+    fn orthogonality() {
+        let outputs = [AXIS, AXIS];
+        let check = |u: [f32; 3], v: [f32; 3]| {
+            holds(Relation::Orthogonal(0, 1), &outputs, |output| {
+                if output == 0 { &u } else { &v }
+            })
+        };
+        // The closures borrow for the call only.
+        assert!(check([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));
+        assert!(!check([1.0, 0.0, 0.0], [0.1, 1.0, 0.0]));
+        assert!(check([1.0, 0.0, 0.0], [f32::NAN, 1.0, 0.0]));
+    }
+}

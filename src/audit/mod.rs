@@ -1,0 +1,17 @@
+//! The chunk engine and the judge: pipelines sampling, device and oracle, and summarises what they disagree on.
+
+mod chunk;
+mod engine;
+mod failures;
+mod histogram;
+mod judge;
+mod summary;
+mod verdict;
+
+pub use chunk::{Chunk, MAX_CHUNK, OracleSummary};
+pub use engine::{Audited, Plan, Stopped, audit, judge};
+pub use failures::{Failure, Failures};
+pub use histogram::Histogram;
+pub use judge::{EXPLAINED_BY_ROUNDING, Measure, measure};
+pub use summary::{Bin, OutputSummary, Summary, Worst};
+pub use verdict::Verdict;

@@ -1,0 +1,209 @@
+//! What an audit keeps of millions of comparisons. Everything in it merges by integer addition or by a maximum with a
+//! fixed rule for ties, so that neither threads nor chunks nor their order show.
+
+use super::failures::{Failure, Failures};
+use super::judge::Measure;
+use super::{Histogram, Verdict, judge};
+use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem};
+
+/// One variant on one scenario.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    pub configurations: u64,
+    /// By position in [`Verdict::ALL`].
+    pub verdicts: [u64; Verdict::ALL.len()],
+    pub outputs: Vec<OutputSummary>,
+    /// One a landmark coordinate, one a bin.
+    pub landmarks: Vec<Vec<Bin>>,
+    pub failures: Failures,
+}
+
+/// One output of one variant on one scenario.
+#[derive(Clone, Debug, Default)]
+pub struct OutputSummary {
+    /// Configurations whose error is beyond the output's tolerance or not finite, whoever is to blame.
+    pub beyond: u64,
+    /// Configurations whose error is at least one step of 8 bits, of 10 bits, of binary16.
+    pub visible: [u64; 3],
+    pub error: Histogram,
+    pub ulp: Histogram,
+    pub conditioned: Histogram,
+    pub worst: Worst,
+}
+
+/// The worst finite error and its configuration; the smallest index among equals.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Worst {
+    pub found: Option<(f64, u64)>,
+    pub ulp: f64,
+}
+
+/// What happened in one bin of a landmark coordinate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bin {
+    pub verdicts: [u64; Verdict::ALL.len()],
+    /// One an output, as [`OutputSummary::beyond`].
+    pub beyond: [u64; MAX_OUTPUTS],
+}
+
+impl Worst {
+    fn offer(&mut self, error: f64, ulp: f64, index: u64) {
+        let better = match self.found {
+            None => true,
+            Some((worst, at)) => error > worst || (error == worst && index < at),
+        };
+        if better {
+            self.found = Some((error, index));
+        }
+        self.ulp = self.ulp.max(ulp);
+    }
+}
+
+/// A row of the truth table beside which a variant's outputs are judged.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row<'a> {
+    pub index: u64,
+    pub inputs: &'a [f32],
+    pub truth: &'a [f64],
+    pub sensitivities: &'a [f64],
+    /// One bin a landmark.
+    pub bins: &'a [u8],
+}
+
+impl Summary {
+    pub fn new(problem: &dyn Problem, max_failures: usize) -> Self {
+        let bin = Bin {
+            verdicts: [0; Verdict::ALL.len()],
+            beyond: [0; MAX_OUTPUTS],
+        };
+        Summary {
+            configurations: 0,
+            verdicts: [0; Verdict::ALL.len()],
+            outputs: vec![OutputSummary::default(); problem.outputs().len()],
+            landmarks: problem
+                .landmarks()
+                .iter()
+                .map(|l| vec![bin.clone(); l.edges.len() + 1])
+                .collect(),
+            failures: Failures::new(max_failures),
+        }
+    }
+
+    /// Judges one configuration's outputs, given as all components in column order.
+    pub(super) fn judge(&mut self, problem: &dyn Problem, row: Row<'_>, values: &[f32; MAX_COMPONENTS]) {
+        let outputs = problem.outputs();
+        let mut measures: [Option<Measure>; MAX_OUTPUTS] = [None; MAX_OUTPUTS];
+        let mut starts = [0; MAX_OUTPUTS];
+        let mut verdict = Verdict::Ok;
+        let mut start = 0;
+        for (position, output) in outputs.iter().enumerate() {
+            let components = start..start + output.field.ty.components();
+            starts[position] = start;
+            start = components.end;
+            let measure = judge::measure(
+                output,
+                &values[components.clone()],
+                &row.truth[components],
+                row.sensitivities[position],
+            );
+            verdict = verdict.max(measure.verdict);
+            measures[position] = Some(measure);
+            self.outputs[position].add(&measure, output.tolerance, row.index);
+        }
+        for relation in problem.relations() {
+            let holds = judge::holds(*relation, outputs, |output| {
+                &values[starts[output]..][..outputs[output].field.ty.components()]
+            });
+            if !holds {
+                verdict = verdict.max(Verdict::NotOrthogonal);
+            }
+        }
+
+        self.configurations += 1;
+        self.verdicts[verdict as usize] += 1;
+        for (bins, bin) in self.landmarks.iter_mut().zip(row.bins) {
+            let bin = &mut bins[usize::from(*bin)];
+            bin.verdicts[verdict as usize] += 1;
+            for ((beyond, measure), output) in bin.beyond.iter_mut().zip(&measures).zip(outputs) {
+                *beyond += u64::from(measure.is_some_and(|m| m.error > output.tolerance));
+            }
+        }
+        if verdict.is_failure() {
+            let measured = || measures.iter().flatten();
+            self.failures.offer(row.index, || Failure {
+                index: row.index,
+                verdict,
+                inputs: row.inputs.to_vec(),
+                outputs: values[..start].to_vec(),
+                truth: row.truth.to_vec(),
+                errors: measured().map(|measure| measure.error).collect(),
+                ulps: measured().map(|measure| measure.ulp).collect(),
+            });
+        }
+    }
+
+    /// Adds another part of the same variant and scenario.
+    pub fn merge(&mut self, other: Summary) {
+        self.configurations += other.configurations;
+        add(&mut self.verdicts, &other.verdicts);
+        for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
+            mine.merge(theirs);
+        }
+        for (mine, theirs) in self
+            .landmarks
+            .iter_mut()
+            .flatten()
+            .zip(other.landmarks.iter().flatten())
+        {
+            add(&mut mine.verdicts, &theirs.verdicts);
+            add(&mut mine.beyond, &theirs.beyond);
+        }
+        self.failures.merge(other.failures);
+    }
+
+    /// Configurations with this verdict.
+    pub fn count(&self, verdict: Verdict) -> u64 {
+        self.verdicts[verdict as usize]
+    }
+
+    /// Configurations that failed by the variant's fault.
+    pub fn failed(&self) -> u64 {
+        Verdict::ALL
+            .iter()
+            .filter(|verdict| verdict.is_failure())
+            .map(|verdict| self.count(*verdict))
+            .sum()
+    }
+}
+
+impl OutputSummary {
+    fn add(&mut self, measure: &Measure, tolerance: f64, index: u64) {
+        self.beyond += u64::from(measure.error > tolerance);
+        for (count, steps) in self.visible.iter_mut().zip(measure.steps) {
+            *count += u64::from(steps >= 1.0);
+        }
+        self.error.add(measure.error);
+        self.ulp.add(measure.ulp);
+        self.conditioned.add(measure.conditioned);
+        if measure.error.is_finite() {
+            self.worst.offer(measure.error, measure.ulp, index);
+        }
+    }
+
+    fn merge(&mut self, other: &OutputSummary) {
+        self.beyond += other.beyond;
+        add(&mut self.visible, &other.visible);
+        self.error.merge(&other.error);
+        self.ulp.merge(&other.ulp);
+        self.conditioned.merge(&other.conditioned);
+        if let Some((error, index)) = other.worst.found {
+            self.worst.offer(error, other.worst.ulp, index);
+        }
+    }
+}
+
+fn add(counts: &mut [u64], more: &[u64]) {
+    for (count, more) in counts.iter_mut().zip(more) {
+        *count += more;
+    }
+}

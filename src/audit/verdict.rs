@@ -1,0 +1,54 @@
+//! What a comparison says.
+
+use serde::{Deserialize, Serialize};
+
+/// The verdict on one configuration, in ascending order of gravity; the gravest of all outputs counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Every output within its tolerance.
+    Ok,
+    /// Beyond the tolerance, but no further than rounding the inputs would explain: the problem's fault.
+    IllConditioned,
+    /// Beyond the tolerance: the variant's fault.
+    Inaccurate,
+    /// Axes that ought to be orthogonal are not.
+    NotOrthogonal,
+    /// A direction whose length is not 1.
+    NotUnit,
+    /// A value of the wrong sign, such as a negative length.
+    WrongSign,
+    /// NaN or infinite where the truth is a finite f32.
+    NonFinite,
+}
+
+impl Verdict {
+    /// Every verdict, ascending.
+    pub const ALL: [Verdict; 7] = [
+        Verdict::Ok,
+        Verdict::IllConditioned,
+        Verdict::Inaccurate,
+        Verdict::NotOrthogonal,
+        Verdict::NotUnit,
+        Verdict::WrongSign,
+        Verdict::NonFinite,
+    ];
+
+    /// Its name in records and tables: `ill_conditioned`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::Ok => "ok",
+            Verdict::IllConditioned => "ill_conditioned",
+            Verdict::Inaccurate => "inaccurate",
+            Verdict::NotOrthogonal => "not_orthogonal",
+            Verdict::NotUnit => "not_unit",
+            Verdict::WrongSign => "wrong_sign",
+            Verdict::NonFinite => "non_finite",
+        }
+    }
+
+    /// Whether the variant, not the problem, is to blame.
+    pub fn is_failure(self) -> bool {
+        self > Verdict::IllConditioned
+    }
+}
