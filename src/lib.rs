@@ -18,8 +18,10 @@
 //! -> `numeric`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
 
 pub mod audit;
+pub mod bench;
 pub mod catalog;
 pub mod device;
 pub mod family;
 pub mod numeric;
+pub mod record;
 pub mod sample;

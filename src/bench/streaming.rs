@@ -1,0 +1,122 @@
+//! Streaming time: one evaluation a configuration, inputs from memory and outputs to it.
+//!
+//! On a GPU this measures memory more than arithmetic. Variants are interleaved (A B C A B C ...), so that drift of the
+//! machine cancels from their ratios.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
+use super::Quartiles;
+use crate::audit::Stopped;
+use crate::device::{Clock, Device, Outputs};
+
+/// How much to measure.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Rounds over all variants before the first counted one: a clock may need 400 ms to ramp up.
+    pub warm_up: Duration,
+    /// Counted rounds, at least.
+    pub min_rounds: usize,
+    /// Counted rounds go on until this much time has passed, or [`max_rounds`](Effort::max_rounds).
+    pub time: Duration,
+    pub max_rounds: usize,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Effort {
+            warm_up: Duration::from_millis(400),
+            min_rounds: 7,
+            time: Duration::from_secs(3),
+            max_rounds: 51,
+        }
+    }
+}
+
+/// A sample lasts at least this long: shorter kernels are submitted several times for one sample.
+const MIN_SAMPLE: Duration = Duration::from_millis(2);
+/// So many submissions a sample at most.
+const MAX_REPEATS: usize = 64;
+
+/// Time of one variant.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Timing {
+    /// Nanoseconds a configuration.
+    pub ns: Quartiles,
+    pub clock: Clock,
+    /// Samples taken, interleaved with the other variants'.
+    pub rounds: usize,
+    /// Configurations a submission, and submissions a sample.
+    pub configurations: usize,
+    pub repeats: usize,
+}
+
+/// Times `programs` on the same inputs. `advance` hears of each finished sample.
+pub fn streaming<D: Device>(
+    device: &D,
+    programs: &[D::Program],
+    inputs: &D::Inputs,
+    configurations: usize,
+    effort: &Effort,
+    advance: &dyn Fn(),
+    stop: &AtomicBool,
+) -> Result<Vec<Timing>, Stopped> {
+    let once = |program: &D::Program| {
+        let outputs = device.wait(device.submit(program, inputs)?)?;
+        Ok::<_, Stopped>(outputs.elapsed())
+    };
+
+    let mut fastest = vec![Duration::MAX; programs.len()];
+    let mut clock = Clock::DeviceTimestamps;
+    let warm_up = Instant::now();
+    loop {
+        for (program, fastest) in programs.iter().zip(&mut fastest) {
+            if stop.load(Ordering::Relaxed) {
+                return Err(Stopped::Interrupted);
+            }
+            let elapsed = once(program)?;
+            clock = elapsed.clock;
+            *fastest = (*fastest).min(elapsed.time);
+        }
+        if warm_up.elapsed() >= effort.warm_up {
+            break;
+        }
+    }
+    let repeats = |fastest: Duration| {
+        let needed = MIN_SAMPLE.as_secs_f64() / fastest.as_secs_f64().max(1e-9);
+        (needed.ceil() as usize).clamp(1, MAX_REPEATS)
+    };
+    let repeats: Vec<usize> = fastest.into_iter().map(repeats).collect();
+
+    let mut samples: Vec<Vec<f64>> = vec![Vec::new(); programs.len()];
+    let start = Instant::now();
+    for round in 0..effort.max_rounds {
+        if round >= effort.min_rounds && start.elapsed() >= effort.time {
+            break;
+        }
+        for ((program, samples), repeats) in programs.iter().zip(&mut samples).zip(&repeats) {
+            if stop.load(Ordering::Relaxed) {
+                return Err(Stopped::Interrupted);
+            }
+            let mut time = Duration::ZERO;
+            for _ in 0..*repeats {
+                time += once(program)?.time;
+            }
+            samples.push(time.as_secs_f64() * 1e9 / (*repeats * configurations) as f64);
+            advance();
+        }
+    }
+    let timing = |(samples, repeats): (Vec<f64>, usize)| {
+        let ns = Quartiles::of(&samples)?;
+        Some(Timing {
+            ns,
+            clock,
+            rounds: samples.len(),
+            configurations,
+            repeats,
+        })
+    };
+    Ok(samples.into_iter().zip(repeats).filter_map(timing).collect())
+}

@@ -1,0 +1,54 @@
+//! What a run leaves behind: a versioned `run.json`, `failures.parquet`, and the folder that holds them; and the CSV
+//! in which users hand over configurations.
+
+pub mod configurations;
+mod failures;
+mod folder;
+mod number;
+mod schema;
+mod summarize;
+
+use std::path::PathBuf;
+
+pub use folder::{Folder, default_path};
+pub use number::parse_f32;
+pub use schema::{
+    Audit, Bin, Buckets, Distribution, Family, Host, Landmark, Oracle, Output, OutputAudit, Program, Rate,
+    Result, Run, SCHEMA, Scenario, Settings, Variant, Visible, Worst,
+};
+pub use summarize::{audit, family};
+
+/// One variant's failures on one scenario, for the Parquet file.
+#[derive(Clone, Debug)]
+pub struct FailureGroup {
+    pub family: &'static str,
+    pub variant: String,
+    pub scenario: &'static str,
+    pub failures: Vec<crate::audit::Failure>,
+}
+
+/// Why a record could not be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error("cannot {action} {}: {source}", path.display())]
+    Io {
+        action: &'static str,
+        path: PathBuf,
+        source: std::io::Error,
+    },
+    #[error("{} holds a run already; choose another --out, or --force to replace it", path.display())]
+    Occupied { path: PathBuf },
+    #[error("{}: {source}", path.display())]
+    Json {
+        path: PathBuf,
+        source: serde_json::Error,
+    },
+    #[error("{}: {source}", path.display())]
+    Parquet {
+        path: PathBuf,
+        source: parquet::errors::ParquetError,
+    },
+    /// The user's table is at fault; `place` is `FILE` or `FILE:LINE`.
+    #[error("{place}: {message}")]
+    Table { place: String, message: String },
+}

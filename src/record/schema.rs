@@ -1,0 +1,216 @@
+//! The schema of `run.json`.
+//!
+//! Numbers that may be infinite are `null` where they are. Rates carry their 95 % interval. A reader must refuse a
+//! `schema` above its own [`SCHEMA`]; fields may be added without raising it, never changed in meaning.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::audit::Verdict;
+use crate::bench::Timing;
+use crate::{catalog, device};
+
+/// Version of this schema.
+pub const SCHEMA: u32 = 1;
+
+/// One recorded execution.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    pub schema: u32,
+    pub program: Program,
+    /// The command line, program name included.
+    pub command: Vec<String>,
+    /// RFC 3339, UTC.
+    pub started: String,
+    pub seconds: f64,
+    pub host: Host,
+    pub device: device::Facts,
+    pub settings: Settings,
+    pub families: Vec<Family>,
+}
+
+/// Which rootq this was.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Program {
+    pub version: String,
+    /// Git revision of the build; empty if it was not built from a repository.
+    pub revision: String,
+    /// Sources differed from that revision.
+    pub dirty: bool,
+    /// Shader compiler and its version.
+    pub compiler: String,
+}
+
+/// The machine around the device.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Host {
+    pub os: String,
+    pub arch: String,
+    pub threads: usize,
+}
+
+/// What, with the program's revision and the device, repeats the run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Settings {
+    pub seed: u64,
+    /// Configurations a scenario.
+    pub configurations: u64,
+    pub chunk: usize,
+    pub max_failures: usize,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Family {
+    pub name: String,
+    pub summary: String,
+    pub outputs: Vec<Output>,
+    pub landmarks: Vec<Landmark>,
+    pub scenarios: Vec<Scenario>,
+    pub variants: Vec<Variant>,
+}
+
+/// One result of the family's function.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Output {
+    pub name: String,
+    /// How its error is measured: `length` (relative), `unit_vector` (radians).
+    pub quantity: String,
+    pub tolerance: f64,
+    pub headline: bool,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Landmark {
+    pub name: String,
+    pub summary: String,
+    /// Bin k holds `edges[k-1] <= coordinate < edges[k]`.
+    pub edges: Vec<f64>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scenario {
+    pub name: String,
+    pub summary: String,
+    /// Absent if only times were taken.
+    pub oracle: Option<Oracle>,
+}
+
+/// The oracle's own certainty.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Oracle {
+    /// Configurations for which plain f64 did not do.
+    pub escalations: u64,
+    /// Configurations whose bound stayed above 1/16 of the f32 spacing.
+    pub uncertified: u64,
+    /// Largest bound in units of the f32 spacing.
+    pub worst_bound: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Variant {
+    pub name: String,
+    pub file: String,
+    pub summary: String,
+    pub source: String,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub tried: Option<String>,
+    /// Decorated NoContraction throughout by the harness.
+    pub precise: bool,
+    pub spirv: catalog::Facts,
+    /// Why this device could not run it; then there are no results.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub skipped: Option<String>,
+    pub results: Vec<Result>,
+}
+
+/// One variant on one scenario.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Result {
+    pub scenario: String,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub audit: Option<Audit>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub timing: Option<Timing>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Audit {
+    pub configurations: u64,
+    /// Verdicts that occurred.
+    pub verdicts: BTreeMap<Verdict, Rate>,
+    /// All verdicts that blame the variant, together.
+    pub failed: Rate,
+    /// In the order of the family's outputs.
+    pub outputs: Vec<OutputAudit>,
+    /// In the order of the family's landmarks; bins nobody fell into are left out.
+    pub landmarks: Vec<Vec<Bin>>,
+}
+
+/// A count and the 95 % interval of the rate behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rate {
+    pub count: u64,
+    pub rate: f64,
+    pub low: f64,
+    pub high: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OutputAudit {
+    pub name: String,
+    /// Error beyond the tolerance or not finite, whoever is to blame.
+    pub beyond: Rate,
+    pub visible: Visible,
+    /// In the quantity's own measure.
+    pub error: Distribution,
+    /// Units of the f32 spacing at the unrounded truth.
+    pub ulp: Distribution,
+    /// Multiples of what rounding each input once may do.
+    pub conditioned: Distribution,
+    /// The worst finite error.
+    pub worst: Option<Worst>,
+}
+
+/// Configurations whose error is at least one step of a display or frame buffer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Visible {
+    pub bits8: u64,
+    pub bits10: u64,
+    pub half: u64,
+}
+
+/// Quantiles as upper bounds, each at most a quarter too high; `null` if infinite or not a number.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Distribution {
+    pub p50: Option<f64>,
+    pub p90: Option<f64>,
+    pub p99: Option<f64>,
+    pub p999: Option<f64>,
+    pub buckets: Buckets,
+}
+
+/// Counts of consecutive buckets. Bucket 0 is below 2^-64; bucket b from 1 to 512 is from q(b - 1) up to q(b), where
+/// q(b) = 2^(floor(b/4) - 64) (1 + (b mod 4)/4); bucket 513 is 2^64 or more, infinite, or not a number.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Buckets {
+    pub first: usize,
+    pub counts: Vec<u64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Worst {
+    pub error: f64,
+    /// Configuration, to be drawn again from seed and scenario.
+    pub index: u64,
+    /// Largest finite error in ULP, not always at the same index.
+    pub ulp: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bin {
+    pub bin: usize,
+    pub verdicts: BTreeMap<Verdict, u64>,
+    /// One an output.
+    pub beyond: Vec<u64>,
+}
