@@ -8,6 +8,7 @@ mod glsl;
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::time::Instant;
 
 use rootq::catalog::Kernel;
 use rootq::device::vulkan::{Instance, Options, VulkanDevice};
@@ -158,6 +159,33 @@ fn both_drivers_are_here() {
         VulkanDevice::open(&instance, facts.len()),
         Err(Error::UnknownDevice { known, .. }) if known.len() == facts.len()
     ));
+}
+
+/// Without this, silence in the other tests would prove nothing.
+#[test]
+fn validation_messages_are_heard() {
+    install_drivers();
+    let instance = Instance::open(true).expect("a Vulkan loader with the validation layer");
+    let device = VulkanDevice::open(&instance, 0).expect("a device");
+    // Sixteen bytes of push constants where the layout has twelve: wrong, and harmless to compile.
+    let spirv = glsl::compile_with("uint first, count, stride, more;", "o[k] = i[k] + float(more);");
+    let kernel = Kernel {
+        id: "test/greedy".to_owned(),
+        spirv,
+        inputs: 1,
+        outputs: 1,
+    };
+    let _program = device.program(&kernel);
+    let messages = instance.validation_messages();
+    assert!(
+        messages.iter().any(|message| message.contains("VUID")),
+        "{messages:?}"
+    );
+    // The name that the engine gave the module is in the message.
+    assert!(
+        messages.iter().any(|message| message.contains("test/greedy")),
+        "{messages:?}"
+    );
 }
 
 #[test]
@@ -420,4 +448,47 @@ fn misuse_is_an_error() {
             Err(Error::InvalidKernel { .. })
         ));
     });
+}
+
+/// What a chunk costs beyond its dispatches. Run with `--ignored --nocapture`.
+#[test]
+#[ignore = "a measurement"]
+fn overhead_of_a_chunk() {
+    install_drivers();
+    let instance = Instance::open(false).expect("a Vulkan loader");
+    let body = "for (uint c = 0; c < 8; ++c) o[c * stride + k] = i[c % 6 * stride + k];";
+    let kernel = kernel("test/copy", body, 6, 8);
+    let rows: Vec<f32> = (0..6 << 20).map(|value| value as f32).collect();
+    for facts in instance.devices().expect("devices") {
+        for force_staging in [false, true] {
+            let options = Options {
+                force_staging,
+                ..Options::default()
+            };
+            let device = VulkanDevice::open_with(&instance, facts.index, options).expect("a device");
+            println!("{}, staging {force_staging}", facts.name);
+            let program = device.program(&kernel).expect("a program");
+            for round in 0..8 {
+                let start = Instant::now();
+                let inputs = device.upload(&rows, 6).expect("inputs");
+                let uploaded = start.elapsed();
+                let pending = device.submit(&program, &inputs).expect("a submission");
+                let submitted = start.elapsed();
+                let outputs = device.wait(pending).expect("outputs");
+                let finished = start.elapsed();
+                let sum: f64 = (0..8)
+                    .flat_map(|column| outputs.column(column))
+                    .map(|&value| f64::from(value))
+                    .sum();
+                let read = start.elapsed();
+                println!(
+                    "{round}: upload {uploaded:?}, submit {:?}, wait {:?} of which dispatches {:?}, read {:?} ({sum:e})",
+                    submitted - uploaded,
+                    finished - submitted,
+                    outputs.elapsed().time,
+                    read - finished
+                );
+            }
+        }
+    }
 }

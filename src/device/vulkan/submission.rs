@@ -122,16 +122,16 @@ impl Pending {
         if pace.estimate().is_some() {
             return Ok(done);
         }
-        for count in [WARM_ROWS, PROBE_ROWS] {
-            // So few rows are a dispatch of their own, with nothing to split.
-            if self.rows - done <= count {
-                break;
-            }
-            let ns = self.run_now(done, count)?;
-            done += count;
-            if count == PROBE_ROWS || ns > TARGET_NS {
+        // So few rows as one of these are a dispatch of their own, with nothing to split.
+        if self.rows > WARM_ROWS {
+            let ns = self.run_now(0, WARM_ROWS)?;
+            done = WARM_ROWS;
+            // Slow to compile or slow to run: a second dispatch as small tells, and is safe either way.
+            let count = if ns > TARGET_NS { WARM_ROWS } else { PROBE_ROWS };
+            if self.rows - done > count {
+                let ns = self.run_now(done, count)?;
+                done += count;
                 pace.learn(ns, count);
-                break;
             }
         }
         Ok(done)
