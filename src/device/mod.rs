@@ -133,6 +133,12 @@ pub enum Error {
     NoValidationLayer,
     #[error("{kernel} needs {what}, which this device does not have")]
     NotSupported { kernel: String, what: String },
+    /// The module itself is at fault, on any device.
+    #[error("{kernel} is not a usable kernel: {reason}")]
+    InvalidKernel { kernel: String, reason: String },
+    /// Columns and kernel do not fit each other, or do not fit the device: the caller's mistake.
+    #[error("columns do not fit: {0}")]
+    Shape(String),
     /// A driver call failed; `call` is the Vulkan function's name.
     #[error("{call} failed: {result}")]
     Call { call: &'static str, result: String },

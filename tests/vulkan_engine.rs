@@ -1,0 +1,494 @@
+//! The Vulkan engine on every driver, under the validation layer.
+//!
+//! Each test opens an instance of its own, runs on every device in it, closes the devices and then wants no validation
+//! message: leaked objects and wrong synchronisation show there.
+#![allow(unsafe_code, reason = "a compiler's C interface and one environment variable")]
+
+mod glsl;
+
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::time::Instant;
+
+use rootq::catalog::Kernel;
+use rootq::device::vulkan::{Instance, Options, VulkanDevice};
+use rootq::device::{Clock, Device, Error, Facts, Outputs};
+
+/// Sum, product and negation: all correctly rounded on any device, so that results compare by bits.
+const ARITHMETIC: &str = "o[k] = i[k] + i[stride + k];
+    o[stride + k] = i[k] * i[2 * stride + k];
+    o[2 * stride + k] = -i[2 * stride + k];";
+
+/// About a thousand dependent operations, to take long enough for several dispatches.
+const SLOW: &str = "float x = i[k];
+    for (int n = 0; n < 400; ++n) x = x * 0.5 + 1.0;
+    o[k] = x + i[k];";
+
+fn kernel(id: &str, body: &str, inputs: usize, outputs: usize) -> Kernel {
+    Kernel {
+        id: id.to_owned(),
+        spirv: glsl::compile(body),
+        inputs,
+        outputs,
+    }
+}
+
+fn arithmetic() -> Kernel {
+    kernel("test/arithmetic", ARITHMETIC, 3, 3)
+}
+
+/// Three columns that no two rows share.
+fn rows(count: usize) -> Vec<f32> {
+    (0..count)
+        .flat_map(|row| {
+            [
+                row as f32 * 0.25 + 0.1,
+                1.0 - row as f32 * 1e-3,
+                (row % 1009) as f32 + 0.3,
+            ]
+        })
+        .collect()
+}
+
+fn check_arithmetic(rows: &[f32], outputs: &impl Outputs) {
+    let (sum, product, negation) = (outputs.column(0), outputs.column(1), outputs.column(2));
+    assert_eq!(
+        (sum.len(), product.len(), negation.len()),
+        (rows.len() / 3, rows.len() / 3, rows.len() / 3)
+    );
+    for (index, row) in rows.chunks_exact(3).enumerate() {
+        let got = [sum[index], product[index], negation[index]];
+        let want = [row[0] + row[1], row[0] * row[2], -row[2]];
+        assert_eq!(
+            got.map(f32::to_bits),
+            want.map(f32::to_bits),
+            "row {index}: {row:?} gave {got:?}"
+        );
+    }
+}
+
+/// Makes the loader list lavapipe and SwiftShader, unless the environment says otherwise.
+fn install_drivers() {
+    static DONE: OnceLock<()> = OnceLock::new();
+    DONE.get_or_init(|| {
+        if std::env::var_os("VK_DRIVER_FILES").is_some() || std::env::var_os("VK_ICD_FILENAMES").is_some() {
+            return;
+        }
+        let lavapipe = std::fs::read_dir("/usr/share/vulkan/icd.d")
+            .into_iter()
+            .flatten()
+            .flatten()
+            .map(|entry| entry.path())
+            .find(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("lvp_icd.")))
+            .expect("lavapipe is not installed (Debian: apt-get install mesa-vulkan-drivers)");
+        let swiftshader: PathBuf =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("target/swiftshader/vk_swiftshader_icd.json");
+        assert!(
+            swiftshader.exists(),
+            "SwiftShader is not at {} (Debian: unpack libvk_swiftshader.so and vk_swiftshader_icd.json from the \
+             package chromium-common there)",
+            swiftshader.display()
+        );
+        let both = std::env::join_paths([lavapipe, swiftshader]).expect("paths without a colon");
+        // SAFETY: every test comes through here before it opens an instance, and the others wait; nobody else in this
+        // process reads or writes the environment meanwhile.
+        unsafe { std::env::set_var("VK_DRIVER_FILES", both) };
+    });
+}
+
+/// Runs `test` on every device with `options`, then wants the validation layer to have been silent.
+fn on_every_device(options: Options, test: impl Fn(&VulkanDevice)) {
+    install_drivers();
+    let instance = Instance::open(true).expect("a Vulkan loader with the validation layer");
+    let devices = instance.devices().expect("devices");
+    assert!(!devices.is_empty(), "no driver has a device");
+    for facts in &devices {
+        let device = VulkanDevice::open_with(&instance, facts.index, options).expect("a device that opens");
+        println!(
+            "{}: {} ({} {})",
+            facts.index, facts.name, facts.driver, facts.driver_info
+        );
+        test(&device);
+    }
+    assert_eq!(instance.validation_messages(), Vec::<String>::new());
+}
+
+fn evaluate(device: &VulkanDevice, kernel: &Kernel, rows: &[f32]) -> impl Outputs + use<> {
+    let program = device.program(kernel).expect("a program");
+    let inputs = device.upload(rows, kernel.inputs).expect("inputs");
+    let pending = device.submit(&program, &inputs).expect("a submission");
+    device.wait(pending).expect("outputs")
+}
+
+const COUNTS: [usize; 5] = [1, 63, 64, 65, 1_000_003];
+
+fn staged() -> Options {
+    Options {
+        force_staging: true,
+        poison_outputs: true,
+        ..Options::default()
+    }
+}
+
+#[test]
+fn both_drivers_are_here() {
+    on_every_device(Options::default(), |device| {
+        let facts: &Facts = device.facts();
+        println!("{facts:#?}");
+        assert!(facts.validation && facts.unified_memory && facts.kind == "cpu");
+        assert!(
+            facts.uuid.len() == 32 && facts.subgroup_size > 0 && facts.max_storage_buffer_range >= 1 << 27
+        );
+        assert!(device.max_rows(6, 8) >= 1 << 20 && device.max_rows(0, 0) >= 1);
+        assert!(device.max_rows(usize::MAX, 1) == 1);
+    });
+    let instance = Instance::open(false).expect("a Vulkan loader");
+    let facts = instance.devices().expect("devices");
+    assert!(instance.validation_messages().is_empty() && !facts[0].validation);
+    for device in &facts {
+        assert_eq!(
+            instance
+                .choose(Some(&device.index.to_string()))
+                .expect("an index"),
+            device.index
+        );
+        assert_eq!(instance.choose(Some(&device.name)).expect("a name"), device.index);
+    }
+    assert_eq!(instance.choose(None).expect("the first"), 0);
+    assert!(matches!(
+        VulkanDevice::open(&instance, facts.len()),
+        Err(Error::UnknownDevice { known, .. }) if known.len() == facts.len()
+    ));
+}
+
+/// Without this, silence in the other tests would prove nothing.
+#[test]
+fn validation_messages_are_heard() {
+    install_drivers();
+    let instance = Instance::open(true).expect("a Vulkan loader with the validation layer");
+    let device = VulkanDevice::open(&instance, 0).expect("a device");
+    // Sixteen bytes of push constants where the layout has twelve: wrong, and harmless to compile.
+    let spirv = glsl::compile_with("uint first, count, stride, more;", "o[k] = i[k] + float(more);");
+    let kernel = Kernel {
+        id: "test/greedy".to_owned(),
+        spirv,
+        inputs: 1,
+        outputs: 1,
+    };
+    let _program = device.program(&kernel);
+    let messages = instance.validation_messages();
+    assert!(
+        messages.iter().any(|message| message.contains("VUID")),
+        "{messages:?}"
+    );
+    // The name that the engine gave the module is in the message.
+    assert!(
+        messages.iter().any(|message| message.contains("test/greedy")),
+        "{messages:?}"
+    );
+}
+
+#[test]
+fn results_are_right_for_any_count() {
+    let options = Options {
+        poison_outputs: true,
+        ..Options::default()
+    };
+    on_every_device(options, |device| {
+        for count in COUNTS {
+            let rows = rows(count);
+            let outputs = evaluate(device, &arithmetic(), &rows);
+            check_arithmetic(&rows, &outputs);
+            assert_eq!(outputs.elapsed().clock, Clock::DeviceTimestamps);
+            assert!(!outputs.elapsed().time.is_zero());
+        }
+    });
+}
+
+#[test]
+fn staging_gives_the_same() {
+    on_every_device(staged(), |device| {
+        assert!(!device.facts().unified_memory);
+        for count in COUNTS {
+            let rows = rows(count);
+            check_arithmetic(&rows, &evaluate(device, &arithmetic(), &rows));
+        }
+    });
+}
+
+#[test]
+fn without_timestamps_the_host_takes_the_time() {
+    for force_staging in [false, true] {
+        let options = Options {
+            ignore_timestamps: true,
+            poison_outputs: true,
+            force_staging,
+        };
+        on_every_device(options, |device| {
+            for count in COUNTS {
+                let rows = rows(count);
+                let outputs = evaluate(device, &arithmetic(), &rows);
+                check_arithmetic(&rows, &outputs);
+                assert_eq!(outputs.elapsed().clock, Clock::HostFence);
+                assert!(!outputs.elapsed().time.is_zero());
+            }
+        });
+    }
+}
+
+#[test]
+fn submissions_overlap_and_share_inputs() {
+    for options in [Options::default(), staged()] {
+        on_every_device(options, |device| {
+            let program = device.program(&arithmetic()).expect("a program");
+            let (first, second) = (rows(200_001), rows(100_000));
+            let inputs = device.upload(&first, 3).expect("inputs");
+            let a = device.submit(&program, &inputs).expect("a");
+            let b = device.submit(&program, &inputs.clone()).expect("b");
+            let others = device
+                .upload(&second, 3)
+                .expect("inputs while others are in flight");
+            let c = device.submit(&program, &others).expect("c");
+            // Each submission keeps what it needs, whatever its maker drops.
+            drop((inputs, others, program));
+            check_arithmetic(&second, &device.wait(c).expect("c"));
+            check_arithmetic(&first, &device.wait(a).expect("a"));
+            check_arithmetic(&first, &device.wait(b).expect("b"));
+        });
+    }
+}
+
+#[test]
+fn threads_share_a_device() {
+    for options in [
+        Options::default(),
+        Options {
+            ignore_timestamps: true,
+            ..staged()
+        },
+    ] {
+        on_every_device(options, |device| {
+            let program = device.program(&arithmetic()).expect("a program");
+            std::thread::scope(|scope| {
+                for thread in 0..4 {
+                    let program = &program;
+                    scope.spawn(move || {
+                        for round in 0..6 {
+                            let rows = rows(1000 * (thread + 1) + 7 * round);
+                            let inputs = device.upload(&rows, 3).expect("inputs");
+                            let pending = device.submit(program, &inputs).expect("a submission");
+                            check_arithmetic(&rows, &device.wait(pending).expect("outputs"));
+                        }
+                    });
+                }
+            });
+        });
+    }
+}
+
+#[test]
+fn a_dropped_submission_is_waited_for() {
+    for options in [Options::default(), staged()] {
+        on_every_device(options, |device| {
+            let program = device
+                .program(&kernel("test/slow", SLOW, 3, 1))
+                .expect("a program");
+            let inputs = device.upload(&rows(300_000), 3).expect("inputs");
+            for _ in 0..3 {
+                drop(device.submit(&program, &inputs).expect("a submission"));
+            }
+            // Uploaded and never used.
+            drop(device.upload(&rows(1000), 3).expect("inputs"));
+        });
+    }
+}
+
+#[test]
+fn a_long_evaluation_is_split_and_complete() {
+    let options = Options {
+        poison_outputs: true,
+        ..Options::default()
+    };
+    on_every_device(options, |device| {
+        let program = device
+            .program(&kernel("test/slow", SLOW, 3, 1))
+            .expect("a program");
+        let rows = rows(700_001);
+        let inputs = device.upload(&rows, 3).expect("inputs");
+        for _ in 0..2 {
+            let outputs = device
+                .wait(device.submit(&program, &inputs).expect("a submission"))
+                .expect("outputs");
+            // The iteration has converged to 2 long before its end; the sum is then rounded once.
+            for (index, (&got, row)) in outputs.column(0).iter().zip(rows.chunks_exact(3)).enumerate() {
+                assert_eq!(got, 2.0 + row[0], "row {index}");
+            }
+        }
+    });
+}
+
+#[test]
+fn outputs_outlive_their_device() {
+    install_drivers();
+    let instance = Instance::open(true).expect("a Vulkan loader with the validation layer");
+    let rows = rows(5000);
+    let outputs = {
+        let device = VulkanDevice::open(&instance, 0).expect("a device");
+        evaluate(&device, &arithmetic(), &rows)
+    };
+    check_arithmetic(&rows, &outputs);
+    drop(outputs);
+    assert_eq!(instance.validation_messages(), Vec::<String>::new());
+}
+
+#[test]
+fn buffers_are_recycled() {
+    for (options, buffers) in [(Options::default(), 2), (staged(), 4)] {
+        on_every_device(options, |device| {
+            let rows = rows(4096);
+            let program = device.program(&arithmetic()).expect("a program");
+            for round in 0..10 {
+                let inputs = device.upload(&rows, 3).expect("inputs");
+                let pending = device.submit(&program, &inputs).expect("a submission");
+                check_arithmetic(&rows, &device.wait(pending).expect("outputs"));
+                let usage = device.buffer_usage();
+                assert!(usage.created <= buffers, "round {round}: {usage:?}");
+            }
+            assert!(
+                device.buffer_usage().recycled >= 9 * (buffers - 1),
+                "{:?}",
+                device.buffer_usage()
+            );
+        });
+    }
+}
+
+#[test]
+fn unwritten_rows_show_as_poison() {
+    let options = Options {
+        poison_outputs: true,
+        ..Options::default()
+    };
+    on_every_device(options, |device| {
+        let kernel = kernel("test/half", "if (k % 2 == 0) o[k] = i[k];", 3, 1);
+        let rows = rows(3000);
+        for _ in 0..2 {
+            let outputs = evaluate(device, &kernel, &rows);
+            for (index, value) in outputs.column(0).iter().enumerate() {
+                assert_eq!(value.is_nan(), index % 2 == 1, "row {index} is {value}");
+            }
+        }
+    });
+}
+
+#[test]
+fn no_rows_give_empty_columns() {
+    for options in [Options::default(), staged()] {
+        on_every_device(options, |device| {
+            let outputs = evaluate(device, &arithmetic(), &[]);
+            assert!(outputs.column(0).is_empty() && outputs.column(2).is_empty());
+            assert!(outputs.elapsed().time.is_zero());
+        });
+    }
+}
+
+#[test]
+fn what_a_device_lacks_is_said_and_what_it_has_works() {
+    on_every_device(Options::default(), |device| {
+        let kernel = kernel("test/double", "o[k] = float(double(i[k]) * 3.0LF);", 3, 1);
+        match device.program(&kernel) {
+            Ok(_) => {
+                assert!(device.facts().shader_float64);
+                let rows = rows(100);
+                let outputs = evaluate(device, &kernel, &rows);
+                for (&got, row) in outputs.column(0).iter().zip(rows.chunks_exact(3)) {
+                    assert_eq!(got, (f64::from(row[0]) * 3.0) as f32);
+                }
+            }
+            Err(Error::NotSupported { kernel, what }) => {
+                assert!(!device.facts().shader_float64);
+                assert_eq!(kernel, "test/double");
+                assert!(what.contains("Float64"), "{what}");
+            }
+            Err(other) => panic!("{other}"),
+        }
+    });
+}
+
+#[test]
+fn misuse_is_an_error() {
+    on_every_device(Options::default(), |device| {
+        let program = device.program(&arithmetic()).expect("a program");
+        assert!(matches!(device.upload(&[0.0; 7], 3), Err(Error::Shape(_))));
+        assert!(matches!(device.upload(&[0.0; 7], 0), Err(Error::Shape(_))));
+        let inputs = device.upload(&[0.0; 8], 2).expect("inputs");
+        assert!(matches!(device.submit(&program, &inputs), Err(Error::Shape(_))));
+        // More outputs than fit beside inputs that do.
+        let wide = Kernel {
+            outputs: 1 << 28,
+            ..arithmetic()
+        };
+        let program = device.program(&wide).expect("a program");
+        let inputs = device.upload(&[0.0; 300], 3).expect("inputs");
+        assert!(matches!(device.submit(&program, &inputs), Err(Error::Shape(_))));
+        let broken = Kernel {
+            spirv: vec![1, 2, 3],
+            ..arithmetic()
+        };
+        assert!(matches!(
+            device.program(&broken),
+            Err(Error::InvalidKernel { .. })
+        ));
+        let nothing = Kernel {
+            outputs: 0,
+            ..arithmetic()
+        };
+        assert!(matches!(
+            device.program(&nothing),
+            Err(Error::InvalidKernel { .. })
+        ));
+    });
+}
+
+/// What a chunk costs beyond its dispatches. Run with `--ignored --nocapture`.
+#[test]
+#[ignore = "a measurement"]
+fn overhead_of_a_chunk() {
+    install_drivers();
+    let instance = Instance::open(false).expect("a Vulkan loader");
+    let body = "for (uint c = 0; c < 8; ++c) o[c * stride + k] = i[c % 6 * stride + k];";
+    let kernel = kernel("test/copy", body, 6, 8);
+    let rows: Vec<f32> = (0..6 << 20).map(|value| value as f32).collect();
+    for facts in instance.devices().expect("devices") {
+        for force_staging in [false, true] {
+            let options = Options {
+                force_staging,
+                ..Options::default()
+            };
+            let device = VulkanDevice::open_with(&instance, facts.index, options).expect("a device");
+            println!("{}, staging {force_staging}", facts.name);
+            let program = device.program(&kernel).expect("a program");
+            for round in 0..8 {
+                let start = Instant::now();
+                let inputs = device.upload(&rows, 6).expect("inputs");
+                let uploaded = start.elapsed();
+                let pending = device.submit(&program, &inputs).expect("a submission");
+                let submitted = start.elapsed();
+                let outputs = device.wait(pending).expect("outputs");
+                let finished = start.elapsed();
+                let sum: f64 = (0..8)
+                    .flat_map(|column| outputs.column(column))
+                    .map(|&value| f64::from(value))
+                    .sum();
+                let read = start.elapsed();
+                println!(
+                    "{round}: upload {uploaded:?}, submit {:?}, wait {:?} of which dispatches {:?}, read {:?} ({sum:e})",
+                    submitted - uploaded,
+                    finished - submitted,
+                    outputs.elapsed().time,
+                    read - finished
+                );
+            }
+        }
+    }
+}
