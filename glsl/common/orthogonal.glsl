@@ -11,4 +11,12 @@ vec3 any_orthogonal(vec3 n)
     return turned * inversesqrt(dot(turned, turned));
 }
 
+// The part of v orthogonal to the unit vector n. Where hardly anything remains of v, that remainder is rounding
+// error, and its direction is not orthogonal to n either: the answer is then zero.
+vec3 orthogonal_part(vec3 v, vec3 n)
+{
+    vec3 part = v - dot(v, n) * n;
+    return dot(part, part) > 9.5367431640625e-7 * dot(v, v) ? part : vec3(0.0);
+}
+
 #endif
