@@ -24,7 +24,7 @@ precise = true
 // always finite unit axes.
 // Source: Hestenes, "Inversion of matrices by biorthogonalization and related results", 1958; Golub & Van Loan,
 // "Matrix Computations", section 8.6.
-// Bound: l_max within 4 u, l_min within 2 u aspect for skewed vectors, u = 2^-24.
+// Bound: l_max within 6 u; l_min within 6 u for orthogonal vectors and 2 u aspect for skewed ones, u = 2^-24.
 // Measured: -
 
 #include "common/eigen_angle.glsl"
