@@ -20,8 +20,10 @@
 pub mod audit;
 pub mod bench;
 pub mod catalog;
+pub mod cli;
 pub mod device;
 pub mod family;
 pub mod numeric;
 pub mod record;
+pub mod report;
 pub mod sample;

@@ -1,0 +1,154 @@
+//! The command line: one verb a file. Only this module prints.
+//!
+//! Data goes to standard output, words to standard error. Exit status: 0 clean, 2 the call or the machine is at fault,
+//! with one line that says what and how to mend it; 130 interrupted.
+
+mod count;
+mod devices;
+mod eval;
+mod list;
+mod machine;
+mod run;
+mod selection;
+
+use std::io::IsTerminal;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Parser, Subcommand};
+
+/// Audits the precision and measures the throughput of GPU shader variants.
+///
+/// Every variant of a numerical kernel runs over millions of random configurations on a Vulkan device; every result is
+/// compared with a certified f64 oracle. What fails is recorded so that it can be repeated; what works is timed.
+#[derive(Debug, Parser)]
+#[command(
+    version,
+    max_term_width = 100,
+    after_help = "Start with 'rootq devices' and 'rootq list'; then 'rootq run' does everything.\n\
+                  Exit status: 0 clean, 2 the call or the machine is at fault (one line says what), 130 interrupted."
+)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// The Vulkan devices of this machine
+    Devices(devices::Arguments),
+    /// Families, their columns and scenarios, and variants
+    List(list::Arguments),
+    /// Audit and time variants, show tables, leave a run folder
+    Run(run::Arguments),
+    /// Only the precision half of 'run'
+    Audit(run::Arguments),
+    /// Only the throughput half of 'run'
+    Bench(run::Arguments),
+    /// Evaluate your own configurations, by oracle and variants, CSV to CSV
+    Eval(eval::Arguments),
+}
+
+/// Runs the program on the process's arguments.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return usage(&error),
+    };
+    let stop = Arc::new(AtomicBool::new(false));
+    let raised = Arc::clone(&stop);
+    let handler = ctrlc::set_handler(move || {
+        // The second time nobody waits for the chunk in flight.
+        if raised.swap(true, Ordering::Relaxed) {
+            std::process::exit(INTERRUPTED.into());
+        }
+    });
+    if let Err(error) = handler {
+        eprintln!("rootq: Ctrl-C will not clean up: {error}");
+    }
+    let result = match cli.verb {
+        Verb::Devices(arguments) => devices::devices(&arguments),
+        Verb::List(arguments) => list::list(&arguments),
+        Verb::Run(arguments) => run::run(&arguments, run::Halves::Both, &stop),
+        Verb::Audit(arguments) => run::run(&arguments, run::Halves::Audit, &stop),
+        Verb::Bench(arguments) => run::run(&arguments, run::Halves::Bench, &stop),
+        Verb::Eval(arguments) => eval::eval(&arguments, &stop),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(_) if stop.load(Ordering::Relaxed) => {
+            eprintln!("rootq: interrupted; nothing was recorded");
+            INTERRUPTED.into()
+        }
+        // A closed pipe is how the reader says that it has seen enough.
+        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("rootq: {}", one_line(&format!("{error:#}")));
+            AT_FAULT.into()
+        }
+    }
+}
+
+const AT_FAULT: u8 = 2;
+const INTERRUPTED: u8 = 130;
+
+/// Help and version as they are; a wrong call as one line.
+fn usage(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        // Nothing can be done about a closed standard output.
+        _ = error.print();
+        return ExitCode::SUCCESS;
+    }
+    if error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        _ = error.print();
+        return AT_FAULT.into();
+    }
+    let text = error.render().to_string();
+    let told: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"))
+        .filter(|line| !line.is_empty())
+        .collect();
+    let told = told.join(" ");
+    eprintln!(
+        "rootq: {} (see 'rootq --help')",
+        told.strip_prefix("error: ").unwrap_or(&told)
+    );
+    AT_FAULT.into()
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error
+        .chain()
+        .filter_map(|cause| cause.downcast_ref::<std::io::Error>())
+        .any(|cause| cause.kind() == std::io::ErrorKind::BrokenPipe)
+}
+
+/// Whether standard output takes colours: a terminal, and NO_COLOR not set.
+fn colour() -> bool {
+    std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// Prints data to standard output.
+fn print(text: &str) -> anyhow::Result<()> {
+    use std::io::Write;
+    std::io::stdout().write_all(text.as_bytes())?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_sound() {
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,301 @@
+//! `rootq run`, `audit` and `bench`: the same plan, both halves of it or one.
+
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::count;
+use super::machine::DeviceArguments;
+use super::selection::{self, Selected};
+use crate::audit::{self, Chunk, MAX_CHUNK, Plan};
+use crate::bench::{self, Effort};
+use crate::catalog::{self, Catalog, Compiled};
+use crate::device::{self, Device, vulkan::VulkanDevice};
+use crate::family::Scenario;
+use crate::record::{self, FailureGroup, Folder};
+use crate::report;
+
+/// Which halves of a run a verb does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Halves {
+    Both,
+    Audit,
+    Bench,
+}
+
+/// Runs variants over random configurations of each scenario, compares with the oracle and takes their time.
+///
+/// Tables go to standard output. The run folder holds run.json (counts, histograms, quantiles, worst configurations,
+/// times, and what repeats the run) and failures.parquet (a sample of failing configurations with their exact bits).
+/// The same seed gives the same counts on any number of threads and with any chunk size.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    rootq run                                         every built-in variant, every scenario\n  \
+    rootq audit ellipse_axes --scenario aspect -n 4M  one family on one scenario\n  \
+    rootq bench 'ellipse_axes/cross*'                 times of some variants")]
+pub(super) struct Arguments {
+    /// Variants: FAMILY, FAMILY/VARIANT or a glob such as 'ellipse_axes/cross*' [default: all]
+    #[arg(value_name = "SELECT")]
+    select: Vec<String>,
+    /// Configurations a scenario; K, M and G are allowed
+    #[arg(short = 'n', value_name = "COUNT", default_value = "1M", value_parser = count::parse, allow_hyphen_values = true)]
+    configurations: u64,
+    /// Seed of the random configurations
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Only this scenario; may be given again [default: all]
+    #[arg(long, value_name = "NAME")]
+    scenario: Vec<String>,
+    #[command(flatten)]
+    device: DeviceArguments,
+    /// Run folder to write [default: bench_results/<device>/<date>-<commit>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace a run that --out holds already
+    #[arg(long)]
+    force: bool,
+    /// Failures to keep a variant and scenario
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    max_failures: usize,
+    /// Configurations a chunk, at most 2^20; changes no result
+    #[arg(long, value_name = "COUNT", default_value = "1048576", value_parser = count::parse)]
+    chunk: u64,
+    /// Host threads for sampling, oracle and judge; changes no result [default: one a core]
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Seconds of timing a scenario, after a warm-up; at least 7 rounds over all variants are taken
+    #[arg(long, value_name = "S", default_value_t = 3.0)]
+    seconds: f64,
+}
+
+/// Variants that are ready to run, and those that cannot here.
+struct Prepared {
+    record: record::Family,
+    selected: Selected,
+    /// Programs, each with its variant's place in the record.
+    programs: Vec<<VulkanDevice as Device>::Program>,
+    places: Vec<usize>,
+}
+
+pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> Result<()> {
+    let start = Instant::now();
+    let started = jiff::Timestamp::now();
+    if !(arguments.seconds > 0.0 && arguments.seconds <= 86_400.0) {
+        bail!("--seconds must be above 0 and at most 86400");
+    }
+    if let Some(threads) = arguments.threads {
+        if !(1..=1024).contains(&threads) {
+            bail!("--threads must be from 1 to 1024");
+        }
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global()
+            .context("--threads")?;
+    }
+    let catalog = Catalog::embedded()?;
+    let selected = selection::variants(&catalog, &arguments.select)?;
+    selection::check_scenarios(&selected, &arguments.scenario)?;
+    let machine = arguments.device.open()?;
+    let facts = machine.device.facts().clone();
+    let target = arguments.out.clone().unwrap_or_else(|| {
+        let date = started.strftime("%Y-%m-%d").to_string();
+        record::default_path(&facts.name, &date, env!("ROOTQ_REVISION"))
+    });
+    let folder = Folder::create(&target, arguments.force)?;
+
+    eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
+    let mut families = selected
+        .into_iter()
+        .map(|selected| prepare(selected, &machine.device))
+        .collect::<Result<Vec<_>>>()?;
+    let mut groups = Vec::new();
+    for family in &mut families {
+        for scenario in selection::scenarios(family.selected.problem, &arguments.scenario) {
+            measure(
+                family,
+                scenario,
+                &machine.device,
+                arguments,
+                halves,
+                stop,
+                &mut groups,
+            )?;
+        }
+    }
+    machine.check_validation()?;
+
+    let run = record::Run {
+        schema: record::SCHEMA,
+        program: program(),
+        command: std::env::args().collect(),
+        started: started.to_string(),
+        seconds: start.elapsed().as_secs_f64(),
+        host: record::Host {
+            os: std::env::consts::OS.to_owned(),
+            arch: std::env::consts::ARCH.to_owned(),
+            threads: rayon::current_num_threads(),
+        },
+        device: facts,
+        settings: record::Settings {
+            seed: arguments.seed,
+            configurations: arguments.configurations,
+            chunk: arguments.chunk.min(MAX_CHUNK as u64) as usize,
+            max_failures: arguments.max_failures,
+        },
+        families: families.into_iter().map(|family| family.record).collect(),
+    };
+    let folder = folder.finish(&run, &groups)?;
+    super::print(&report::run(&run, super::colour()))?;
+    eprintln!("run folder: {} ({:.0} s)", folder.display(), run.seconds);
+    Ok(())
+}
+
+fn program() -> record::Program {
+    record::Program {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        revision: env!("ROOTQ_REVISION").to_owned(),
+        dirty: env!("ROOTQ_DIRTY") == "true",
+        compiler: catalog::compiler_version(),
+    }
+}
+
+/// Compiles the selected variants; what the device lacks is recorded as a skip.
+fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
+    let signature = selected.problem.signature();
+    let mut record = record::family(selected.problem);
+    let (mut programs, mut places) = (Vec::new(), Vec::new());
+    for variant in &selected.variants {
+        let Compiled { kernel, facts } = variant.compile(&signature, false)?;
+        let skipped = match device.program(&kernel) {
+            Ok(program) => {
+                programs.push(program);
+                places.push(record.variants.len());
+                None
+            }
+            Err(error @ device::Error::NotSupported { .. }) => Some(error.to_string()),
+            Err(error) => return Err(error.into()),
+        };
+        record.variants.push(record::Variant {
+            name: variant.name.clone(),
+            file: variant.file.clone(),
+            summary: variant.summary.clone(),
+            source: variant.source.clone(),
+            tried: variant.tried.clone(),
+            precise: variant.precise,
+            spirv: facts,
+            skipped,
+            results: Vec::new(),
+        });
+    }
+    Ok(Prepared {
+        record,
+        selected,
+        programs,
+        places,
+    })
+}
+
+/// One scenario of one family: audit, times, or both, into the family's record.
+fn measure(
+    family: &mut Prepared,
+    scenario: &'static Scenario,
+    device: &VulkanDevice,
+    arguments: &Arguments,
+    halves: Halves,
+    stop: &AtomicBool,
+    groups: &mut Vec<FailureGroup>,
+) -> Result<()> {
+    let problem = family.selected.problem;
+    let label = format!("{}/{}", problem.name(), scenario.name);
+    let plan = Plan {
+        problem,
+        scenario,
+        seed: arguments.seed,
+        configurations: arguments.configurations,
+        chunk: arguments.chunk.min(MAX_CHUNK as u64) as usize,
+        max_failures: arguments.max_failures,
+    };
+    let mut results: Vec<record::Result> = family
+        .programs
+        .iter()
+        .map(|_| record::Result {
+            scenario: scenario.name.to_owned(),
+            audit: None,
+            timing: None,
+        })
+        .collect();
+    let mut oracle = None;
+
+    if halves != Halves::Bench {
+        let total = arguments.configurations * family.programs.len() as u64;
+        let bar = bar(
+            total,
+            &format!("audit {label}"),
+            "{human_pos}/{human_len} {per_sec} {eta}",
+        );
+        let audited = audit::audit(device, &family.programs, &plan, &|count| bar.inc(count), stop)?;
+        bar.finish_and_clear();
+        oracle = Some(audited.oracle.into());
+        for ((result, summary), place) in results.iter_mut().zip(&audited.summaries).zip(&family.places) {
+            result.audit = Some(record::audit(problem, summary));
+            groups.push(FailureGroup {
+                family: problem.name(),
+                variant: family.record.variants[*place].name.clone(),
+                scenario: scenario.name,
+                failures: summary.failures.sorted().into_iter().cloned().collect(),
+            });
+        }
+    }
+    if halves != Halves::Audit {
+        let signature = problem.signature();
+        let (inputs, outputs) = (signature.input_columns().len(), signature.output_columns().len());
+        let rows =
+            (arguments.configurations.min(plan.chunk as u64) as usize).min(device.max_rows(inputs, outputs));
+        let chunk = Chunk::draw(problem, scenario, arguments.seed, 0, rows);
+        let columns = device.upload(chunk.inputs(), inputs)?;
+        let effort = Effort {
+            time: Duration::from_secs_f64(arguments.seconds),
+            ..Effort::default()
+        };
+        let bar = bar(0, &format!("bench {label}"), "{human_pos} samples {elapsed}");
+        let timings = bench::streaming(
+            device,
+            &family.programs,
+            &columns,
+            rows,
+            &effort,
+            &|| bar.inc(1),
+            stop,
+        )?;
+        bar.finish_and_clear();
+        for (result, timing) in results.iter_mut().zip(timings) {
+            result.timing = Some(timing);
+        }
+    }
+
+    for (result, place) in results.into_iter().zip(&family.places) {
+        family.record.variants[*place].results.push(result);
+    }
+    family.record.scenarios.push(record::Scenario {
+        name: scenario.name.to_owned(),
+        summary: scenario.summary.to_owned(),
+        oracle,
+    });
+    eprintln!("done: {label}");
+    Ok(())
+}
+
+/// A progress bar on standard error; invisible where that is no terminal.
+fn bar(length: u64, message: &str, tail: &str) -> ProgressBar {
+    let bar = ProgressBar::new(length).with_message(message.to_owned());
+    let shape = if length == 0 { "{spinner}" } else { "{wide_bar}" };
+    if let Ok(style) = ProgressStyle::with_template(&format!("{{msg:30}} {shape} {tail}")) {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
