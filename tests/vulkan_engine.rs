@@ -7,6 +7,7 @@
 mod glsl;
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::OnceLock;
 use std::time::Instant;
 
@@ -218,22 +219,19 @@ fn staging_gives_the_same() {
 
 #[test]
 fn without_timestamps_the_host_takes_the_time() {
-    for force_staging in [false, true] {
-        let options = Options {
-            ignore_timestamps: true,
-            poison_outputs: true,
-            force_staging,
-        };
-        on_every_device(options, |device| {
-            for count in COUNTS {
-                let rows = rows(count);
-                let outputs = evaluate(device, &arithmetic(), &rows);
-                check_arithmetic(&rows, &outputs);
-                assert_eq!(outputs.elapsed().clock, Clock::HostFence);
-                assert!(!outputs.elapsed().time.is_zero());
-            }
-        });
-    }
+    let options = Options {
+        ignore_timestamps: true,
+        ..staged()
+    };
+    on_every_device(options, |device| {
+        for count in COUNTS {
+            let rows = rows(count);
+            let outputs = evaluate(device, &arithmetic(), &rows);
+            check_arithmetic(&rows, &outputs);
+            assert_eq!(outputs.elapsed().clock, Clock::HostFence);
+            assert!(!outputs.elapsed().time.is_zero());
+        }
+    });
 }
 
 #[test]
@@ -439,6 +437,10 @@ fn misuse_is_an_error() {
             device.program(&broken),
             Err(Error::InvalidKernel { .. })
         ));
+        let again = Instance::open(false).expect("a Vulkan loader");
+        let other = VulkanDevice::open(&again, device.facts().index).expect("a device");
+        let foreign = other.program(&arithmetic()).expect("a program");
+        assert!(matches!(device.submit(&foreign, &inputs), Err(Error::Shape(_))));
         let nothing = Kernel {
             outputs: 0,
             ..arithmetic()
@@ -448,6 +450,35 @@ fn misuse_is_an_error() {
             Err(Error::InvalidKernel { .. })
         ));
     });
+}
+
+/// What the loader finds depends on the environment, so these run in processes of their own.
+#[test]
+fn a_machine_without_drivers_or_layer_is_told_so() {
+    const CASE: &str = "ROOTQ_TEST_MISSING";
+    match std::env::var(CASE).as_deref() {
+        Ok("driver") => assert!(matches!(no_instance(false), Error::NoDevice)),
+        Ok("layer") => assert!(matches!(no_instance(true), Error::NoValidationLayer)),
+        _ => {
+            for (case, variable) in [("driver", "VK_DRIVER_FILES"), ("layer", "VK_LAYER_PATH")] {
+                let status = Command::new(std::env::current_exe().expect("this test's program"))
+                    .args(["--exact", "a_machine_without_drivers_or_layer_is_told_so"])
+                    .env(CASE, case)
+                    .env(variable, "/nowhere")
+                    .status()
+                    .expect("a process");
+                assert!(status.success(), "without a {case}");
+            }
+        }
+    }
+}
+
+/// Why there is nothing to work with here.
+fn no_instance(validation: bool) -> Error {
+    match Instance::open(validation) {
+        Err(error) => error,
+        Ok(instance) => instance.choose(None).expect_err("a device"),
+    }
 }
 
 /// What a chunk costs beyond its dispatches. Run with `--ignored --nocapture`.

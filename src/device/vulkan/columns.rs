@@ -81,6 +81,14 @@ impl Inputs {
         })
     }
 
+    /// Whether they are in this device's memory; no rows are in anyone's.
+    pub(super) fn is_of(&self, engine: &Engine) -> bool {
+        self.uploaded
+            .lease
+            .as_ref()
+            .is_none_or(|lease| lease.is_of(&engine.pool))
+    }
+
     pub(super) fn rows(&self) -> u32 {
         self.uploaded.rows
     }

@@ -1,5 +1,6 @@
 //! What all work on one device shares: queue, layouts, buffers, lanes and limits.
 
+use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex};
 
 use ash::vk;
@@ -28,6 +29,8 @@ pub(super) struct Engine {
     set_layout: Owned<vk::DescriptorSetLayout>,
     /// Locked around every submission and every wait for idleness, as Vulkan demands.
     pub(super) queue: Mutex<vk::Queue>,
+    /// What the work in flight is expected to take.
+    pub(super) backlog_ns: AtomicU64,
     logical: Arc<Logical>,
     family: u32,
     abilities: Abilities,
@@ -104,6 +107,7 @@ impl Engine {
             pipeline_layout,
             set_layout,
             queue: Mutex::new(queue),
+            backlog_ns: AtomicU64::new(0),
             logical,
             family: adapter.family,
             abilities: adapter.abilities,

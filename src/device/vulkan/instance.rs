@@ -25,8 +25,8 @@ pub(super) struct Loaded {
     /// The Vulkan version asked for; no device may be used beyond it.
     pub(super) api: u32,
     messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
-    /// Boxed, since the messenger holds its address. Dropped after `drop` has destroyed messenger and instance.
-    messages: Option<Box<Messages>>,
+    /// In an `Arc`, since the messenger holds its address. Dropped after `drop` has destroyed messenger and instance.
+    messages: Option<Arc<Messages>>,
     /// The loader's library: unloaded last.
     _entry: ash::Entry,
 }
@@ -75,7 +75,7 @@ impl Instance {
         let application = vk::ApplicationInfo::default()
             .application_name(c"rootq")
             .api_version(api);
-        let messages = validation.then(Box::<Messages>::default);
+        let messages = validation.then(Arc::<Messages>::default);
         // Chained too, so that creation and destruction of the instance are watched as well.
         let mut chained = messages.as_deref().map(Messages::messenger);
         let mut create = vk::InstanceCreateInfo::default()

@@ -7,7 +7,7 @@ use ash::vk;
 
 use super::call::lock;
 
-/// The messages so far. Its address is given to the driver, so it lives in an `Arc` or a `Box` of its own.
+/// The messages so far. Its address is given to the driver, so it lives in an `Arc` of its own.
 #[derive(Default)]
 pub(super) struct Messages(Mutex<Vec<String>>);
 

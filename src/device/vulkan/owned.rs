@@ -56,6 +56,10 @@ impl<H: Handle> Owned<H> {
         }
     }
 
+    pub(super) fn is_of(&self, logical: &Arc<Logical>) -> bool {
+        Arc::ptr_eq(&self.logical, logical)
+    }
+
     pub(super) fn get(&self) -> H {
         self.handle
     }

@@ -115,6 +115,12 @@ pub(super) struct Lease {
     pool: Arc<Pool>,
 }
 
+impl Lease {
+    pub(super) fn is_of(&self, pool: &Arc<Pool>) -> bool {
+        Arc::ptr_eq(&self.pool, pool)
+    }
+}
+
 impl Deref for Lease {
     type Target = Buffer;
 

@@ -48,6 +48,12 @@ impl Pending {
     pub(super) fn submit(engine: &Arc<Engine>, program: &Program, inputs: &Inputs) -> Result<Self, Error> {
         let compiled = &program.compiled;
         let rows = inputs.rows();
+        if !compiled.pipeline.is_of(engine.logical()) || !inputs.is_of(engine) {
+            return Err(Error::Shape(format!(
+                "{} or its inputs were made for another device",
+                compiled.id
+            )));
+        }
         if inputs.columns() != compiled.inputs {
             return Err(Error::Shape(format!(
                 "{} takes {} input columns, not {}",
@@ -155,6 +161,7 @@ impl Pending {
             return Ok(());
         };
         flight.lane().reserve_timestamps(parts.len())?;
+        flight.expect(pace.estimate().unwrap_or(0.0) * f64::from(self.rows - first));
         self.queued = parts.len();
         self.queued_rows = self.rows - first;
         let mut pairs = 0u32..;
