@@ -73,11 +73,14 @@ pub(super) fn eval(arguments: &Arguments, stop: &AtomicBool) -> Result<()> {
         }
     }
     let signature = problem.signature();
-    let name = arguments.inputs.display().to_string();
-    let source: Box<dyn Read> = if is_dash(&arguments.inputs) {
-        Box::new(io::stdin().lock())
+    let (source, name): (Box<dyn Read>, String) = if is_dash(&arguments.inputs) {
+        (Box::new(io::stdin().lock()), "standard input".to_owned())
     } else {
-        Box::new(File::open(&arguments.inputs).with_context(|| format!("cannot read {name}"))?)
+        let name = arguments.inputs.display().to_string();
+        (
+            Box::new(File::open(&arguments.inputs).with_context(|| format!("cannot read {name}"))?),
+            name,
+        )
     };
     let reader = Reader::new(source, &name, signature.input_columns())?;
     // Written aside: a mistake in the last line must leave nothing behind.
@@ -179,8 +182,7 @@ fn draft(target: &Path) -> Result<NamedTempFile> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    NamedTempFile::new_in(parent)
-        .map_err(|error| anyhow!("cannot write {}: {}", target.display(), error.kind()))
+    NamedTempFile::new_in(parent).map_err(|error| anyhow!("cannot write {}: {}", target.display(), error))
 }
 
 fn deliver(mut draft: NamedTempFile, target: &Path) -> Result<()> {

@@ -30,7 +30,7 @@ pub struct FailureGroup {
 /// Why a record could not be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    #[error("cannot {action} {}: {source}", path.display())]
+    #[error("cannot {action} {}", path.display())]
     Io {
         action: &'static str,
         path: PathBuf,
@@ -38,12 +38,12 @@ pub enum Error {
     },
     #[error("{} holds a run already; choose another --out, or --force to replace it", path.display())]
     Occupied { path: PathBuf },
-    #[error("{}: {source}", path.display())]
+    #[error("cannot write {}", path.display())]
     Json {
         path: PathBuf,
         source: serde_json::Error,
     },
-    #[error("{}: {source}", path.display())]
+    #[error("cannot write {}", path.display())]
     Parquet {
         path: PathBuf,
         source: parquet::errors::ParquetError,

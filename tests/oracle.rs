@@ -1,0 +1,145 @@
+//! Oracles against golden values: 50 digits and more, by another method, in another language (tools/golden.py).
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::Path;
+
+use rootq::family::{CERTIFIED, FAMILIES, Problem, Quantity, Truth};
+use rootq::record::parse_f32;
+
+/// Relative error allowed of a scalar: 450 roundings of f64, where an oracle takes a few dozen steps.
+const SCALAR: f64 = 1e-13;
+
+struct Row {
+    line: usize,
+    cells: HashMap<String, String>,
+}
+
+impl Row {
+    /// An empty cell is a value that the problem does not define.
+    fn number(&self, column: &str) -> Option<f64> {
+        let cell = self
+            .cells
+            .get(column)
+            .unwrap_or_else(|| panic!("no column {column}"));
+        (!cell.is_empty()).then(|| {
+            cell.parse()
+                .unwrap_or_else(|_| panic!("line {}: {column} = {cell}", self.line))
+        })
+    }
+}
+
+fn golden(family: &str) -> Vec<Row> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/golden")
+        .join(format!("{family}.csv"));
+    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut lines = text
+        .lines()
+        .enumerate()
+        .filter(|(_, line)| !line.starts_with('#'));
+    let header: Vec<&str> = lines.next().expect("a header").1.split(',').collect();
+    lines
+        .map(|(number, line)| Row {
+            line: number + 1,
+            cells: header
+                .iter()
+                .map(|name| (*name).to_owned())
+                .zip(line.split(',').map(str::to_owned))
+                .collect(),
+        })
+        .collect()
+}
+
+/// The angle allowed of a direction, in radians: what conditioning lets a certified oracle be off by.
+fn direction_tolerance(family: &str, row: &Row) -> f64 {
+    match family {
+        // Where the relative gap of the lengths is wide, dot products in f64 do, and turn the axes by at most
+        // 2^-51/gap; where it is narrow they are summed exactly.
+        "ellipse_axes" => SCALAR + row.number("gap").map_or(0.0, |gap| 2f64.powi(-51) / gap),
+        _ => SCALAR,
+    }
+}
+
+fn check(problem: &dyn Problem) -> usize {
+    let family = problem.name();
+    let signature = problem.signature();
+    let rows = golden(family);
+    assert!(
+        rows.len() >= 50 * problem.scenarios().len(),
+        "{family}: only {} golden rows",
+        rows.len()
+    );
+    let mut compared = 0;
+    for row in &rows {
+        let place = format!("{family}.csv:{}", row.line);
+        let inputs: Vec<f32> = signature
+            .input_columns()
+            .iter()
+            .map(|column| parse_f32(&row.cells[column]).unwrap_or_else(|| panic!("{place}: {column}")))
+            .collect();
+        let mut truth = Truth::new(problem.outputs());
+        problem.oracle(&inputs, &mut truth);
+        assert!(truth.worst_bound() <= CERTIFIED, "{place}: {truth:?}");
+        for (position, output) in problem.outputs().iter().enumerate() {
+            let expected: Option<Vec<f64>> =
+                output.field.columns().map(|column| row.number(&column)).collect();
+            let got = truth.output(position);
+            let name = output.field.name;
+            let Some(expected) = expected else {
+                assert!(
+                    truth.sensitivities()[position].is_infinite(),
+                    "{place}: {name} is not defined, yet {truth:?}"
+                );
+                continue;
+            };
+            compared += 1;
+            match output.quantity {
+                Quantity::Length => {
+                    let error = (got[0] - expected[0]).abs();
+                    assert!(
+                        error <= SCALAR * expected[0].abs(),
+                        "{place}: {name} {} for {}",
+                        got[0],
+                        expected[0]
+                    );
+                }
+                Quantity::UnitVector { sign_free } => {
+                    let (got, expected) = (glam::DVec3::from_slice(got), glam::DVec3::from_slice(&expected));
+                    let sign = if sign_free {
+                        got.dot(expected).signum()
+                    } else {
+                        1.0
+                    };
+                    let angle = (got - sign * expected).length();
+                    let allowed = direction_tolerance(family, row);
+                    assert!(
+                        angle <= allowed,
+                        "{place}: {name} {got} for {expected}: {angle:e} > {allowed:e}"
+                    );
+                }
+            }
+        }
+    }
+    compared
+}
+
+#[test]
+fn every_family_agrees_with_its_golden_values() {
+    for problem in FAMILIES {
+        let compared = check(*problem);
+        println!("{}: {compared} values compared", problem.name());
+    }
+}
+
+#[test]
+fn every_golden_file_belongs_to_a_family() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    for entry in fs::read_dir(folder).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        let family = name
+            .strip_suffix(".csv")
+            .unwrap_or_else(|| panic!("{name} is not a table"));
+        assert!(rootq::family::find(family).is_some(), "{name} is of no family");
+    }
+}
