@@ -110,6 +110,9 @@ fn on_every_device(options: Options, test: impl Fn(&VulkanDevice)) {
             facts.index, facts.name, facts.driver, facts.driver_info
         );
         test(&device);
+        drop(device);
+        // The layer tells of objects that a destroyed device left behind; this, that it was destroyed.
+        assert_eq!(instance.users(), 0, "something keeps the device open");
     }
     assert_eq!(instance.validation_messages(), Vec::<String>::new());
 }

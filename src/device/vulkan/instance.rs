@@ -136,6 +136,11 @@ impl Instance {
             .unwrap_or_default()
     }
 
+    /// How many others keep the instance alive: clones, and devices that are open or kept so by a program or columns.
+    pub fn users(&self) -> usize {
+        Arc::strong_count(&self.loaded) - 1
+    }
+
     pub(super) fn loaded(&self) -> &Arc<Loaded> {
         &self.loaded
     }

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Everything here is `Send` and `Sync` by its parts. What Vulkan wants synchronised from outside is covered so:
-//! the queue is behind a mutex; a [`lane`]'s command pool, descriptor pool, query pool and fence belong to one
+//! the queue is behind a mutex; a lane's command pool, descriptor pool, query pool and fence belong to one
 //! submission at a time, which owns the lane by value; memory is allocated and freed behind a mutex; pipelines,
 //! layouts and buffers do not change after their creation.
 #![allow(
