@@ -1,7 +1,7 @@
 //! The Vulkan engine on every driver, under the validation layer.
 //!
-//! Each test opens an instance of its own, runs on every device in it, closes the devices and then wants no validation
-//! message: leaked objects and wrong synchronisation show there.
+//! Each test opens an instance of its own, runs on every device in it, closes the devices and then wants no
+//! validation message: leaked objects and wrong synchronisation show there.
 #![allow(unsafe_code, reason = "a compiler's C interface and one environment variable")]
 
 mod glsl;
@@ -80,19 +80,22 @@ fn install_drivers() {
             .flatten()
             .flatten()
             .map(|entry| entry.path())
-            .find(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("lvp_icd.")))
+            .find(|path| {
+                path.file_name()
+                    .is_some_and(|name| name.to_string_lossy().starts_with("lvp_icd."))
+            })
             .expect("lavapipe is not installed (Debian: apt-get install mesa-vulkan-drivers)");
         let swiftshader: PathBuf =
             Path::new(env!("CARGO_MANIFEST_DIR")).join("target/swiftshader/vk_swiftshader_icd.json");
         assert!(
             swiftshader.exists(),
-            "SwiftShader is not at {} (Debian: unpack libvk_swiftshader.so and vk_swiftshader_icd.json from the \
-             package chromium-common there)",
+            "SwiftShader is not at {} (Debian: unpack libvk_swiftshader.so and vk_swiftshader_icd.json \
+             from the package chromium-common there)",
             swiftshader.display()
         );
         let both = std::env::join_paths([lavapipe, swiftshader]).expect("paths without a colon");
-        // SAFETY: every test comes through here before it opens an instance, and the others wait; nobody else in this
-        // process reads or writes the environment meanwhile.
+        // SAFETY: every test comes through here before it opens an instance, and the others wait; nobody else
+        // in this process reads or writes the environment meanwhile.
         unsafe { std::env::set_var("VK_DRIVER_FILES", both) };
     });
 }
@@ -110,6 +113,9 @@ fn on_every_device(options: Options, test: impl Fn(&VulkanDevice)) {
             facts.index, facts.name, facts.driver, facts.driver_info
         );
         test(&device);
+        drop(device);
+        // The layer tells of objects that a destroyed device left behind; this, that it was destroyed.
+        assert_eq!(instance.users(), 0, "something keeps the device open");
     }
     assert_eq!(instance.validation_messages(), Vec::<String>::new());
 }
@@ -513,7 +519,7 @@ fn overhead_of_a_chunk() {
                     .sum();
                 let read = start.elapsed();
                 println!(
-                    "{round}: upload {uploaded:?}, submit {:?}, wait {:?} of which dispatches {:?}, read {:?} ({sum:e})",
+                    "{round}: upload {uploaded:?}, submit {:?}, wait {:?} of which {:?}, read {:?} ({sum:e})",
                     submitted - uploaded,
                     finished - submitted,
                     outputs.elapsed().time,

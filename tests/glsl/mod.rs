@@ -59,8 +59,8 @@ void main() {{
         },
         callbacks_ctx: ptr::null_mut(),
     };
-    // SAFETY: source and limits outlive the shader; shader and program are used in the order the interface wants and
-    // deleted once; the lock keeps the process-wide part to one thread.
+    // SAFETY: source and limits outlive the shader; shader and program are used in the order the interface
+    // wants and deleted once; the lock keeps the process-wide part to one thread.
     unsafe {
         assert_ne!(gl::glslang_initialize_process(), 0);
         let shader = gl::glslang_shader_create(&raw const input);

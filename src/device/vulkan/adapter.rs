@@ -156,8 +156,8 @@ impl Adapter {
     }
 }
 
-/// The family to use and its timestamp bits: of those that compute the one with the most timestamp bits, and of these
-/// one without graphics, where nothing else is likely to be in the way.
+/// The family to use and its timestamp bits: of those that compute the one with the most timestamp bits, and
+/// of these one without graphics, where nothing else is likely to be in the way.
 fn compute_family(families: &[vk::QueueFamilyProperties]) -> Option<(u32, u32)> {
     let mut best: Option<((u32, bool), u32)> = None;
     for (index, family) in (0..).zip(families) {
@@ -177,9 +177,10 @@ fn compute_family(families: &[vk::QueueFamilyProperties]) -> Option<(u32, u32)> 
 
 /// Whether kernels should work on host memory in place.
 ///
-/// Only where there is one memory for both sides (a CPU, an integrated GPU, or every heap the device's own): a discrete
-/// GPU can map some of its memory too, but then each output the host reads would cross the bus by itself. And not where
-/// cached memory exists only apart from the device's: reading outputs from uncached memory costs more than a copy.
+/// Only where there is one memory for both sides (a CPU, an integrated GPU, or every heap the device's own):
+/// a discrete GPU can map some of its memory too, but then each output the host reads would cross the bus by
+/// itself. And not where cached memory exists only apart from the device's: reading outputs from uncached
+/// memory costs more than a copy.
 fn unified(kind: vk::PhysicalDeviceType, memory: &vk::PhysicalDeviceMemoryProperties) -> bool {
     use vk::MemoryPropertyFlags as P;
     let one_memory = match kind {

@@ -106,7 +106,8 @@ impl Inputs {
         })
     }
 
-    /// Frees what the copy into the columns needed. Called when later work on the queue has finished: so has the copy.
+    /// Frees what the copy into the columns needed. Called when later work on the queue has finished: so has
+    /// the copy.
     pub(super) fn settle(&self) {
         drop(lock(&self.uploaded.copy).take());
     }

@@ -13,8 +13,8 @@ use crate::device::Error;
 
 /// One wait for a fence.
 const WAIT_STEP_NS: u64 = 10_000_000_000;
-/// Waits without any backlog before a submission counts as hung: two minutes, where a dispatch is made to take a
-/// twentieth of a second.
+/// Waits without any backlog before a submission counts as hung: two minutes, where a dispatch is made to
+/// take a twentieth of a second.
 const WAIT_STEPS: u64 = 12;
 /// How many times longer than expected the backlog may take on top.
 const PATIENCE: u64 = 4;
@@ -74,7 +74,8 @@ impl<H> Flight<H> {
         self.submit_to(*queue, &[commands], last)
     }
 
-    /// Submits one command buffer and waits for it, alone on the queue. Returns the host's nanoseconds for both.
+    /// Submits one command buffer and waits for it, alone on the queue. Returns the host's nanoseconds for
+    /// both.
     pub(super) fn run_alone(&mut self, commands: vk::CommandBuffer) -> Result<f64, Error> {
         let engine = Arc::clone(&self.engine);
         let queue = lock(&engine.queue);
@@ -99,8 +100,8 @@ impl<H> Flight<H> {
             vk::Fence::null()
         };
         let submit = [vk::SubmitInfo::default().command_buffers(commands)];
-        // SAFETY: the caller has locked the queue; the commands are recorded in this flight's lane, which stays, as does
-        // all they use, until the fence; the fence is unsignalled, for `finish` resets it.
+        // SAFETY: the caller has locked the queue; the commands are recorded in this flight's lane, which
+        // stays, as does all they use, until the fence; the fence is unsignalled, for `finish` resets it.
         let result = unsafe { self.engine.logical().device.queue_submit(queue, &submit, fence) };
         match result {
             Ok(()) => self.state = if last { State::Fenced } else { State::Unfenced },
@@ -168,8 +169,8 @@ impl<H> Drop for Flight<H> {
             .fetch_sub(self.expected_ns, Ordering::Relaxed);
         match (self.state, self.lane.take()) {
             (State::Idle, Some(lane)) => self.engine.recycle(lane),
-            // Freed under a device that may yet write to it, memory would be somebody else's by then: it is leaked, and
-            // with it the device.
+            // Freed under a device that may yet write to it, memory would be somebody else's by then: it is
+            // leaked, and with it the device.
             (State::Hung, lane) => {
                 std::mem::forget(lane);
                 std::mem::forget(self.held.take());

@@ -25,7 +25,8 @@ pub(super) struct Loaded {
     /// The Vulkan version asked for; no device may be used beyond it.
     pub(super) api: u32,
     messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
-    /// In an `Arc`, since the messenger holds its address. Dropped after `drop` has destroyed messenger and instance.
+    /// In an `Arc`, since the messenger holds its address. Dropped after `drop` has destroyed messenger and
+    /// instance.
     messages: Option<Arc<Messages>>,
     /// The loader's library: unloaded last.
     _entry: ash::Entry,
@@ -34,8 +35,8 @@ pub(super) struct Loaded {
 impl Instance {
     /// Opens the Vulkan loader, under the Khronos validation layer if `validation`.
     ///
-    /// [`Error::NoLoader`] without a loader of Vulkan 1.1 or later, [`Error::NoValidationLayer`] without the layer,
-    /// [`Error::NoDevice`] where the loader finds no driver at all.
+    /// [`Error::NoLoader`] without a loader of Vulkan 1.1 or later, [`Error::NoValidationLayer`] without the
+    /// layer, [`Error::NoDevice`] where the loader finds no driver at all.
     pub fn open(validation: bool) -> Result<Self, Error> {
         // SAFETY: the system's Vulkan loader, whose initialisers are its own affair.
         let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader {
@@ -86,7 +87,8 @@ impl Instance {
         if let Some(messenger) = &mut chained {
             create = create.push_next(messenger);
         }
-        // SAFETY: every pointer in `create` is to a local that outlives the call; the messages outlive the instance.
+        // SAFETY: every pointer in `create` is to a local that outlives the call; the messages outlive the
+        // instance.
         let instance = match unsafe { entry.create_instance(&create, None) } {
             // What loaders answer when they know of no driver.
             Err(vk::Result::ERROR_INCOMPATIBLE_DRIVER) => return Err(Error::NoDevice),
@@ -122,7 +124,8 @@ impl Instance {
             .collect())
     }
 
-    /// The index of the device that `selector` means: an index, a UUID or a part of a name; `None`: the first.
+    /// The index of the device that `selector` means: an index, a UUID or a part of a name; `None`: the
+    /// first.
     pub fn choose(&self, selector: Option<&str>) -> Result<usize, Error> {
         select::choose(&self.devices()?, selector)
     }
@@ -134,6 +137,12 @@ impl Instance {
             .as_deref()
             .map(Messages::all)
             .unwrap_or_default()
+    }
+
+    /// How many others keep the instance alive: clones, and devices that are open or kept so by a program or
+    /// columns.
+    pub fn users(&self) -> usize {
+        Arc::strong_count(&self.loaded) - 1
     }
 
     pub(super) fn loaded(&self) -> &Arc<Loaded> {
@@ -165,7 +174,8 @@ impl Loaded {
 
 impl Drop for Loaded {
     fn drop(&mut self) {
-        // SAFETY: every child holds an `Arc` of this, so none is left; messages and library are dropped after.
+        // SAFETY: every child holds an `Arc` of this, so none is left; messages and library are dropped
+        // after.
         unsafe {
             if let Some((debug, messenger)) = self.messenger.take() {
                 debug.destroy_debug_utils_messenger(messenger, None);

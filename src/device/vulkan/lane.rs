@@ -135,7 +135,7 @@ impl Lane {
             && dispatches > 0
         {
             // Not WAIT: after the fence they are there, and if they are not it must not hang.
-            // SAFETY: the pool has room for these queries, and each was reset and written by finished commands.
+            // SAFETY: the pool has room for these queries, each reset and written by finished commands.
             unsafe {
                 self.logical.device.get_query_pool_results(
                     pool.get(),
@@ -160,8 +160,8 @@ impl Lane {
         let commands = self.begin()?;
         let device = &self.logical.device;
         let queries = self.queries.as_ref().map(|(pool, _)| pool.get()).zip(timestamps);
-        // SAFETY: the command buffer is recording; pipeline, layout, set and queries are this device's and stay
-        // alive with the submission; group counts are within the limit that split the rows.
+        // SAFETY: the command buffer is recording; pipeline, layout, set and queries are this device's and
+        // stay alive with the submission; group counts are within the limit that split the rows.
         unsafe {
             if let Some((pool, pair)) = queries {
                 device.cmd_reset_query_pool(commands, pool, 2 * pair, 2);
@@ -177,7 +177,8 @@ impl Lane {
             );
             device.cmd_push_constants(commands, layout, vk::ShaderStageFlags::COMPUTE, 0, &range.bytes());
             self.barrier(commands);
-            // At the bottom of the pipe: a stamp at the top may be taken while earlier work is still draining.
+            // At the bottom of the pipe: a stamp at the top may be taken while earlier work is still
+            // draining.
             if let Some((pool, pair)) = queries {
                 device.cmd_write_timestamp(commands, vk::PipelineStageFlags::BOTTOM_OF_PIPE, pool, 2 * pair);
             }
@@ -199,7 +200,8 @@ impl Lane {
     pub(super) fn record_copy(&mut self, from: Extent, to: vk::Buffer) -> Result<vk::CommandBuffer, Error> {
         let commands = self.begin()?;
         let region = [vk::BufferCopy::default().size(from.bytes)];
-        // SAFETY: the command buffer is recording; both buffers are at least so long and stay with the submission.
+        // SAFETY: the command buffer is recording; both buffers are at least so long and stay with the
+        // submission.
         unsafe {
             self.barrier(commands);
             self.logical

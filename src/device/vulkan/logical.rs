@@ -20,7 +20,8 @@ pub(super) struct Logical {
 }
 
 impl Logical {
-    /// Opens the device with one queue and every ability that [`Abilities`](super::capability::Abilities) names.
+    /// Opens the device with one queue and every ability that [`Abilities`](super::capability::Abilities)
+    /// names.
     pub(super) fn open(loaded: &Arc<Loaded>, adapter: &Adapter) -> Result<Arc<Self>, Error> {
         let abilities = &adapter.abilities;
         let mut storage16 = vk::PhysicalDevice16BitStorageFeatures::default()
@@ -47,7 +48,8 @@ impl Logical {
             .queue_create_infos(&queues)
             .enabled_extension_names(&extensions)
             .push_next(&mut features);
-        // SAFETY: the physical device is this instance's; it offers all that is enabled; the chain outlives the call.
+        // SAFETY: the physical device is this instance's; it offers all that is enabled; the chain outlives
+        // the call.
         let device = unsafe { loaded.instance.create_device(adapter.physical, &create, None) }
             .named("vkCreateDevice")?;
         let names = loaded

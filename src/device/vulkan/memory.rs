@@ -42,8 +42,9 @@ impl Role {
         }
     }
 
-    /// The allocator's `CpuToGpu` and `GpuToCpu` are always host coherent, so nothing here flushes or invalidates;
-    /// `GpuToCpu` prefers cached memory, without which reading outputs back is slower by an order of magnitude.
+    /// The allocator's `CpuToGpu` and `GpuToCpu` are always host coherent, so nothing here flushes or
+    /// invalidates; `GpuToCpu` prefers cached memory, without which reading outputs back is slower by an
+    /// order of magnitude.
     fn location(self) -> MemoryLocation {
         match self {
             Self::SharedInputs | Self::Upload => MemoryLocation::CpuToGpu,
@@ -118,7 +119,8 @@ impl Buffer {
         if role.location() != MemoryLocation::GpuOnly && allocation.mapped_ptr().is_none() {
             return Err(Error::Memory(format!("{role:?} is not visible to the host")));
         }
-        // SAFETY: the memory is this allocation's, made for this buffer's requirements and freed only after it.
+        // SAFETY: the memory is this allocation's, made for this buffer's requirements and freed only after
+        // it.
         unsafe { device.bind_buffer_memory(handle, allocation.memory(), allocation.offset()) }
             .named("vkBindBufferMemory")?;
         Ok(buffer)

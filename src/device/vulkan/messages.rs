@@ -39,8 +39,8 @@ unsafe extern "system" fn collect(
     data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
     user: *mut c_void,
 ) -> vk::Bool32 {
-    // SAFETY: the layer passes valid callback data, whose text, if any, is a C string; `user` is the `Messages`
-    // that made the messenger, which outlives it (see `messenger`), and is only ever shared.
+    // SAFETY: the layer passes valid callback data, whose text, if any, is a C string; `user` is the
+    // `Messages` that made the messenger, which outlives it (see `messenger`), and is only ever shared.
     let (message, messages) = unsafe {
         let text = data
             .as_ref()

@@ -4,14 +4,16 @@
 //! construction and a value may outlive the [`VulkanDevice`] it came from:
 //!
 //! ```text
-//! Loaded (instance, messenger) <- Logical (device) <- Memory <- Buffer <- Pool <- Engine <- VulkanDevice, Program
-//!                                          ^------ Owned<handle> <- Lane <---------'------- Flight <- Pending, Inputs
+//! Loaded (instance, messenger) <- Logical (device) <- Memory <- Buffer <- Pool <- Engine
+//!                                        ^----- Owned<handle> <- Lane <-------------'
+//! Engine <- VulkanDevice, and Flight <- Pending, Inputs
+//! Owned<pipeline> <- Program
 //! ```
 //!
-//! Everything here is `Send` and `Sync` by its parts. What Vulkan wants synchronised from outside is covered so:
-//! the queue is behind a mutex; a [`lane`]'s command pool, descriptor pool, query pool and fence belong to one
-//! submission at a time, which owns the lane by value; memory is allocated and freed behind a mutex; pipelines,
-//! layouts and buffers do not change after their creation.
+//! Everything here is `Send` and `Sync` by its parts. What Vulkan wants synchronised from outside is covered
+//! so: the queue is behind a mutex; a lane's command pool, descriptor pool, query pool and fence belong to
+//! one submission at a time, which owns the lane by value; memory is allocated and freed behind a mutex;
+//! pipelines, layouts and buffers do not change after their creation.
 #![allow(
     unsafe_code,
     reason = "Vulkan is a C interface; this module is its only safe face"

@@ -41,7 +41,8 @@ handles! {
 
 /// A handle together with the device that destroys it on drop.
 ///
-/// Whoever holds one drops it only when the device is done with it: submissions keep theirs until their fence.
+/// Whoever holds one drops it only when the device is done with it: submissions keep theirs until their
+/// fence.
 pub(super) struct Owned<H: Handle> {
     handle: H,
     logical: Arc<Logical>,

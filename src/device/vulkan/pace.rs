@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::catalog::kernel::LOCAL_SIZE;
 
-/// What a dispatch should take. Watchdogs kill at 500 ms and more; estimates can be off by a few times when inputs
-/// differ in cost.
+/// What a dispatch should take. Watchdogs kill at 500 ms and more; estimates can be off by a few times when
+/// inputs differ in cost.
 pub(super) const TARGET_NS: f64 = 40e6;
 /// The first dispatch of a kernel ever: it pays for the driver's last compile step, so it teaches nothing.
 pub(super) const WARM_ROWS: u32 = 1 << 10;
@@ -32,8 +32,8 @@ impl Pace {
         (!estimate.is_nan()).then_some(estimate)
     }
 
-    /// Takes in a measurement. A rise is believed at once, a fall to a quarter at most: inputs that differ in cost by
-    /// four times then still make no dispatch longer than four times its target.
+    /// Takes in a measurement. A rise is believed at once, a fall to a quarter at most: inputs that differ in
+    /// cost by four times then still make no dispatch longer than four times its target.
     pub(super) fn learn(&self, ns: f64, rows: u32) {
         if rows == 0 || !ns.is_finite() {
             return;

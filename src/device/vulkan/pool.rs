@@ -1,7 +1,8 @@
 //! Buffers used again and again.
 //!
-//! A run evaluates hundreds of equal chunks. Fresh memory costs a page fault every 4 KiB, which on a software device
-//! is as dear as the kernel itself; so a buffer that is no longer needed waits here for the next chunk.
+//! A run evaluates hundreds of equal chunks. Fresh memory costs a page fault every 4 KiB, which on a software
+//! device is as dear as the kernel itself; so a buffer that is no longer needed waits here for the next
+//! chunk.
 
 use std::ops::{Deref, DerefMut};
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -13,8 +13,8 @@ use crate::device::Error;
 
 /// A kernel made ready for one device. Cheap to clone.
 ///
-/// The device trusts it to keep to its columns, as [`Kernel`] describes them: buffer accesses are not bounds checked, for
-/// that would be timed too.
+/// The device trusts it to keep to its columns, as [`Kernel`] describes them: buffer accesses are not bounds
+/// checked, for that would be timed too.
 #[derive(Clone)]
 pub struct Program {
     pub(super) compiled: Arc<Compiled>,

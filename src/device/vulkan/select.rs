@@ -7,8 +7,8 @@ const INDEX_DIGITS: usize = 3;
 
 /// The index that `selector` means among `devices`.
 ///
-/// In this order: `None` is the first device; a short decimal number an index; 32 hexadecimal digits, dashes allowed, a
-/// UUID; otherwise a whole name, then a part of one, in any case.
+/// In this order: `None` is the first device; a short decimal number an index; 32 hexadecimal digits, dashes
+/// allowed, a UUID; otherwise a whole name, then a part of one, in any case.
 pub(super) fn choose(devices: &[Facts], selector: Option<&str>) -> Result<usize, Error> {
     if devices.is_empty() {
         return Err(Error::NoDevice);

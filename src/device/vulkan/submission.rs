@@ -43,8 +43,8 @@ struct Held {
 impl Pending {
     /// Starts evaluating every row of `inputs`.
     ///
-    /// Returns at once, but for a program's first rows, which are run and waited for to learn its pace, and but for
-    /// devices timed by the host's clock: there each dispatch must have the queue to itself.
+    /// Returns at once, but for a program's first rows, which are run and waited for to learn its pace, and
+    /// but for devices timed by the host's clock: there each dispatch must have the queue to itself.
     pub(super) fn submit(engine: &Arc<Engine>, program: &Program, inputs: &Inputs) -> Result<Self, Error> {
         let compiled = &program.compiled;
         let rows = inputs.rows();
@@ -143,7 +143,8 @@ impl Pending {
         Ok(done)
     }
 
-    /// Dispatches all rows from `first` on; the last dispatch bears the fence if nothing comes after (`last`).
+    /// Dispatches all rows from `first` on; the last dispatch bears the fence if nothing comes after
+    /// (`last`).
     fn dispatch(&mut self, first: u32, last: bool) -> Result<(), Error> {
         let program = self.program.clone();
         let pace = &program.compiled.pace;

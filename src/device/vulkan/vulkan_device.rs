@@ -81,7 +81,8 @@ impl Device for VulkanDevice {
         Program::new(&self.engine, kernel)
     }
 
-    /// An error if `rows` is not made of whole rows or exceeds [`max_rows`](Device::max_rows). No rows are fine.
+    /// An error if `rows` is not made of whole rows or exceeds [`max_rows`](Device::max_rows). No rows are
+    /// fine.
     fn upload(&self, rows: &[f32], columns: usize) -> Result<Inputs, Error> {
         Inputs::upload(&self.engine, rows, columns)
     }
