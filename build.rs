@@ -4,10 +4,7 @@ use std::process::Command;
 
 fn git(arguments: &[&str]) -> Option<String> {
     let output = Command::new("git").args(arguments).output().ok()?;
-    output
-        .status
-        .success()
-        .then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
 fn main() {
@@ -19,16 +16,8 @@ fn main() {
         }
     }
     let revision = git(&["rev-parse", "HEAD"]).unwrap_or_default();
-    let dirty = git(&[
-        "status",
-        "--porcelain",
-        "--",
-        "src",
-        "glsl",
-        "Cargo.toml",
-        "Cargo.lock",
-    ])
-    .is_some_and(|changes| !changes.is_empty());
+    let dirty = git(&["status", "--porcelain", "--", "src", "glsl", "Cargo.toml", "Cargo.lock"])
+        .is_some_and(|changes| !changes.is_empty());
     println!("cargo:rustc-env=ROOTQ_REVISION={revision}");
     println!("cargo:rustc-env=ROOTQ_DIRTY={dirty}");
 }

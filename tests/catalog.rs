@@ -18,18 +18,10 @@ fn families_are_sorted_and_unique() {
 fn every_folder_is_a_family_and_every_family_has_variants() {
     let catalog = Catalog::embedded().unwrap();
     for variant in catalog.variants() {
-        assert!(
-            find(&variant.family).is_some(),
-            "{} is of no family",
-            variant.file
-        );
+        assert!(find(&variant.family).is_some(), "{} is of no family", variant.file);
     }
     for family in FAMILIES {
-        assert!(
-            catalog.family(family.name()).next().is_some(),
-            "{} has no variant",
-            family.name()
-        );
+        assert!(catalog.family(family.name()).next().is_some(), "{} has no variant", family.name());
     }
 }
 
@@ -40,10 +32,7 @@ fn facts_reflected_from_spirv() {
     let mut snapshot = String::new();
     for variant in catalog.variants() {
         let signature = find(&variant.family).unwrap().signature();
-        let facts = variant
-            .compile(&signature, false)
-            .unwrap_or_else(|error| panic!("{error}"))
-            .facts;
+        let facts = variant.compile(&signature, false).unwrap_or_else(|error| panic!("{error}")).facts;
         assert_eq!(facts.local_size, [64, 1, 1], "{}", variant.id());
         if variant.precise {
             assert_eq!(facts.no_contraction, facts.arithmetic, "{}", variant.id());

@@ -26,12 +26,7 @@ const SLOW: &str = "float x = i[k];
     o[k] = x + i[k];";
 
 fn kernel(id: &str, body: &str, inputs: usize, outputs: usize) -> Kernel {
-    Kernel {
-        id: id.to_owned(),
-        spirv: glsl::compile(body),
-        inputs,
-        outputs,
-    }
+    Kernel { id: id.to_owned(), spirv: glsl::compile(body), inputs, outputs }
 }
 
 fn arithmetic() -> Kernel {
@@ -41,30 +36,17 @@ fn arithmetic() -> Kernel {
 /// Three columns that no two rows share.
 fn rows(count: usize) -> Vec<f32> {
     (0..count)
-        .flat_map(|row| {
-            [
-                row as f32 * 0.25 + 0.1,
-                1.0 - row as f32 * 1e-3,
-                (row % 1009) as f32 + 0.3,
-            ]
-        })
+        .flat_map(|row| [row as f32 * 0.25 + 0.1, 1.0 - row as f32 * 1e-3, (row % 1009) as f32 + 0.3])
         .collect()
 }
 
 fn check_arithmetic(rows: &[f32], outputs: &impl Outputs) {
     let (sum, product, negation) = (outputs.column(0), outputs.column(1), outputs.column(2));
-    assert_eq!(
-        (sum.len(), product.len(), negation.len()),
-        (rows.len() / 3, rows.len() / 3, rows.len() / 3)
-    );
+    assert_eq!((sum.len(), product.len(), negation.len()), (rows.len() / 3, rows.len() / 3, rows.len() / 3));
     for (index, row) in rows.chunks_exact(3).enumerate() {
         let got = [sum[index], product[index], negation[index]];
         let want = [row[0] + row[1], row[0] * row[2], -row[2]];
-        assert_eq!(
-            got.map(f32::to_bits),
-            want.map(f32::to_bits),
-            "row {index}: {row:?} gave {got:?}"
-        );
+        assert_eq!(got.map(f32::to_bits), want.map(f32::to_bits), "row {index}: {row:?} gave {got:?}");
     }
 }
 
@@ -80,10 +62,7 @@ fn install_drivers() {
             .flatten()
             .flatten()
             .map(|entry| entry.path())
-            .find(|path| {
-                path.file_name()
-                    .is_some_and(|name| name.to_string_lossy().starts_with("lvp_icd."))
-            })
+            .find(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("lvp_icd.")))
             .expect("lavapipe is not installed (Debian: apt-get install mesa-vulkan-drivers)");
         let swiftshader: PathBuf =
             Path::new(env!("CARGO_MANIFEST_DIR")).join("target/swiftshader/vk_swiftshader_icd.json");
@@ -108,10 +87,7 @@ fn on_every_device(options: Options, test: impl Fn(&VulkanDevice)) {
     assert!(!devices.is_empty(), "no driver has a device");
     for facts in &devices {
         let device = VulkanDevice::open_with(&instance, facts.index, options).expect("a device that opens");
-        println!(
-            "{}: {} ({} {})",
-            facts.index, facts.name, facts.driver, facts.driver_info
-        );
+        println!("{}: {} ({} {})", facts.index, facts.name, facts.driver, facts.driver_info);
         test(&device);
         drop(device);
         // The layer tells of objects that a destroyed device left behind; this, that it was destroyed.
@@ -130,11 +106,7 @@ fn evaluate(device: &VulkanDevice, kernel: &Kernel, rows: &[f32]) -> impl Output
 const COUNTS: [usize; 5] = [1, 63, 64, 65, 1_000_003];
 
 fn staged() -> Options {
-    Options {
-        force_staging: true,
-        poison_outputs: true,
-        ..Options::default()
-    }
+    Options { force_staging: true, poison_outputs: true, ..Options::default() }
 }
 
 #[test]
@@ -153,12 +125,7 @@ fn both_drivers_are_here() {
     let facts = instance.devices().expect("devices");
     assert!(instance.validation_messages().is_empty() && !facts[0].validation);
     for device in &facts {
-        assert_eq!(
-            instance
-                .choose(Some(&device.index.to_string()))
-                .expect("an index"),
-            device.index
-        );
+        assert_eq!(instance.choose(Some(&device.index.to_string())).expect("an index"), device.index);
         assert_eq!(instance.choose(Some(&device.name)).expect("a name"), device.index);
     }
     assert_eq!(instance.choose(None).expect("the first"), 0);
@@ -176,31 +143,17 @@ fn validation_messages_are_heard() {
     let device = VulkanDevice::open(&instance, 0).expect("a device");
     // Sixteen bytes of push constants where the layout has twelve: wrong, and harmless to compile.
     let spirv = glsl::compile_with("uint first, count, stride, more;", "o[k] = i[k] + float(more);");
-    let kernel = Kernel {
-        id: "test/greedy".to_owned(),
-        spirv,
-        inputs: 1,
-        outputs: 1,
-    };
+    let kernel = Kernel { id: "test/greedy".to_owned(), spirv, inputs: 1, outputs: 1 };
     let _program = device.program(&kernel);
     let messages = instance.validation_messages();
-    assert!(
-        messages.iter().any(|message| message.contains("VUID")),
-        "{messages:?}"
-    );
+    assert!(messages.iter().any(|message| message.contains("VUID")), "{messages:?}");
     // The name that the engine gave the module is in the message.
-    assert!(
-        messages.iter().any(|message| message.contains("test/greedy")),
-        "{messages:?}"
-    );
+    assert!(messages.iter().any(|message| message.contains("test/greedy")), "{messages:?}");
 }
 
 #[test]
 fn results_are_right_for_any_count() {
-    let options = Options {
-        poison_outputs: true,
-        ..Options::default()
-    };
+    let options = Options { poison_outputs: true, ..Options::default() };
     on_every_device(options, |device| {
         for count in COUNTS {
             let rows = rows(count);
@@ -225,10 +178,7 @@ fn staging_gives_the_same() {
 
 #[test]
 fn without_timestamps_the_host_takes_the_time() {
-    let options = Options {
-        ignore_timestamps: true,
-        ..staged()
-    };
+    let options = Options { ignore_timestamps: true, ..staged() };
     on_every_device(options, |device| {
         for count in COUNTS {
             let rows = rows(count);
@@ -249,9 +199,7 @@ fn submissions_overlap_and_share_inputs() {
             let inputs = device.upload(&first, 3).expect("inputs");
             let a = device.submit(&program, &inputs).expect("a");
             let b = device.submit(&program, &inputs.clone()).expect("b");
-            let others = device
-                .upload(&second, 3)
-                .expect("inputs while others are in flight");
+            let others = device.upload(&second, 3).expect("inputs while others are in flight");
             let c = device.submit(&program, &others).expect("c");
             // Each submission keeps what it needs, whatever its maker drops.
             drop((inputs, others, program));
@@ -264,13 +212,7 @@ fn submissions_overlap_and_share_inputs() {
 
 #[test]
 fn threads_share_a_device() {
-    for options in [
-        Options::default(),
-        Options {
-            ignore_timestamps: true,
-            ..staged()
-        },
-    ] {
+    for options in [Options::default(), Options { ignore_timestamps: true, ..staged() }] {
         on_every_device(options, |device| {
             let program = device.program(&arithmetic()).expect("a program");
             std::thread::scope(|scope| {
@@ -294,9 +236,7 @@ fn threads_share_a_device() {
 fn a_dropped_submission_is_waited_for() {
     for options in [Options::default(), staged()] {
         on_every_device(options, |device| {
-            let program = device
-                .program(&kernel("test/slow", SLOW, 3, 1))
-                .expect("a program");
+            let program = device.program(&kernel("test/slow", SLOW, 3, 1)).expect("a program");
             let inputs = device.upload(&rows(300_000), 3).expect("inputs");
             for _ in 0..3 {
                 drop(device.submit(&program, &inputs).expect("a submission"));
@@ -309,20 +249,14 @@ fn a_dropped_submission_is_waited_for() {
 
 #[test]
 fn a_long_evaluation_is_split_and_complete() {
-    let options = Options {
-        poison_outputs: true,
-        ..Options::default()
-    };
+    let options = Options { poison_outputs: true, ..Options::default() };
     on_every_device(options, |device| {
-        let program = device
-            .program(&kernel("test/slow", SLOW, 3, 1))
-            .expect("a program");
+        let program = device.program(&kernel("test/slow", SLOW, 3, 1)).expect("a program");
         let rows = rows(700_001);
         let inputs = device.upload(&rows, 3).expect("inputs");
         for _ in 0..2 {
-            let outputs = device
-                .wait(device.submit(&program, &inputs).expect("a submission"))
-                .expect("outputs");
+            let outputs =
+                device.wait(device.submit(&program, &inputs).expect("a submission")).expect("outputs");
             // The iteration has converged to 2 long before its end; the sum is then rounded once.
             for (index, (&got, row)) in outputs.column(0).iter().zip(rows.chunks_exact(3)).enumerate() {
                 assert_eq!(got, 2.0 + row[0], "row {index}");
@@ -358,21 +292,14 @@ fn buffers_are_recycled() {
                 let usage = device.buffer_usage();
                 assert!(usage.created <= buffers, "round {round}: {usage:?}");
             }
-            assert!(
-                device.buffer_usage().recycled >= 9 * (buffers - 1),
-                "{:?}",
-                device.buffer_usage()
-            );
+            assert!(device.buffer_usage().recycled >= 9 * (buffers - 1), "{:?}", device.buffer_usage());
         });
     }
 }
 
 #[test]
 fn unwritten_rows_show_as_poison() {
-    let options = Options {
-        poison_outputs: true,
-        ..Options::default()
-    };
+    let options = Options { poison_outputs: true, ..Options::default() };
     on_every_device(options, |device| {
         let kernel = kernel("test/half", "if (k % 2 == 0) o[k] = i[k];", 3, 1);
         let rows = rows(3000);
@@ -428,33 +355,18 @@ fn misuse_is_an_error() {
         let inputs = device.upload(&[0.0; 8], 2).expect("inputs");
         assert!(matches!(device.submit(&program, &inputs), Err(Error::Shape(_))));
         // More outputs than fit beside inputs that do.
-        let wide = Kernel {
-            outputs: 1 << 28,
-            ..arithmetic()
-        };
+        let wide = Kernel { outputs: 1 << 28, ..arithmetic() };
         let program = device.program(&wide).expect("a program");
         let inputs = device.upload(&[0.0; 300], 3).expect("inputs");
         assert!(matches!(device.submit(&program, &inputs), Err(Error::Shape(_))));
-        let broken = Kernel {
-            spirv: vec![1, 2, 3],
-            ..arithmetic()
-        };
-        assert!(matches!(
-            device.program(&broken),
-            Err(Error::InvalidKernel { .. })
-        ));
+        let broken = Kernel { spirv: vec![1, 2, 3], ..arithmetic() };
+        assert!(matches!(device.program(&broken), Err(Error::InvalidKernel { .. })));
         let again = Instance::open(false).expect("a Vulkan loader");
         let other = VulkanDevice::open(&again, device.facts().index).expect("a device");
         let foreign = other.program(&arithmetic()).expect("a program");
         assert!(matches!(device.submit(&foreign, &inputs), Err(Error::Shape(_))));
-        let nothing = Kernel {
-            outputs: 0,
-            ..arithmetic()
-        };
-        assert!(matches!(
-            device.program(&nothing),
-            Err(Error::InvalidKernel { .. })
-        ));
+        let nothing = Kernel { outputs: 0, ..arithmetic() };
+        assert!(matches!(device.program(&nothing), Err(Error::InvalidKernel { .. })));
     });
 }
 
@@ -498,10 +410,7 @@ fn overhead_of_a_chunk() {
     let rows: Vec<f32> = (0..6 << 20).map(|value| value as f32).collect();
     for facts in instance.devices().expect("devices") {
         for force_staging in [false, true] {
-            let options = Options {
-                force_staging,
-                ..Options::default()
-            };
+            let options = Options { force_staging, ..Options::default() };
             let device = VulkanDevice::open_with(&instance, facts.index, options).expect("a device");
             println!("{}, staging {force_staging}", facts.name);
             let program = device.program(&kernel).expect("a program");
@@ -513,10 +422,8 @@ fn overhead_of_a_chunk() {
                 let submitted = start.elapsed();
                 let outputs = device.wait(pending).expect("outputs");
                 let finished = start.elapsed();
-                let sum: f64 = (0..8)
-                    .flat_map(|column| outputs.column(column))
-                    .map(|&value| f64::from(value))
-                    .sum();
+                let sum: f64 =
+                    (0..8).flat_map(|column| outputs.column(column)).map(|&value| f64::from(value)).sum();
                 let read = start.elapsed();
                 println!(
                     "{round}: upload {uploaded:?}, submit {:?}, wait {:?} of which {:?}, read {:?} ({sum:e})",

@@ -53,15 +53,12 @@ impl Chunk {
         let stream = Stream::new(seed, &format!("{}/{}", problem.name(), scenario.name));
         let width: usize = problem.inputs().iter().map(|field| field.ty.components()).sum();
         let mut inputs = vec![0.0; rows * width];
-        inputs
-            .par_chunks_mut(BLOCK * width)
-            .enumerate()
-            .for_each(|(block, inputs)| {
-                let count = inputs.len() / width;
-                stream.visit(first + (block * BLOCK) as u64, count, |row, draw| {
-                    (scenario.draw)(draw, &mut inputs[row * width..][..width]);
-                });
+        inputs.par_chunks_mut(BLOCK * width).enumerate().for_each(|(block, inputs)| {
+            let count = inputs.len() / width;
+            stream.visit(first + (block * BLOCK) as u64, count, |row, draw| {
+                (scenario.draw)(draw, &mut inputs[row * width..][..width]);
             });
+        });
         Chunk::of_inputs(problem, first, inputs)
     }
 
@@ -101,16 +98,7 @@ impl Chunk {
                 oracle
             })
             .reduce(OracleSummary::default, OracleSummary::merged);
-        Chunk {
-            first,
-            rows,
-            widths,
-            inputs,
-            truth,
-            sensitivities,
-            bins,
-            oracle,
-        }
+        Chunk { first, rows, widths, inputs, truth, sensitivities, bins, oracle }
     }
 
     pub fn rows(&self) -> usize {
@@ -128,12 +116,7 @@ impl Chunk {
     }
 
     pub(super) fn row(&self, row: usize) -> Row<'_> {
-        let Widths {
-            inputs,
-            sensitivities,
-            bins,
-            ..
-        } = self.widths;
+        let Widths { inputs, sensitivities, bins, .. } = self.widths;
         Row {
             index: self.first + row as u64,
             inputs: &self.inputs[row * inputs..][..inputs],

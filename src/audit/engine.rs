@@ -55,14 +55,10 @@ pub fn audit<D: Device>(
 ) -> Result<Audited, Stopped> {
     let signature = plan.problem.signature();
     let (inputs, outputs) = (signature.input_columns().len(), signature.output_columns().len());
-    let chunk = plan
-        .chunk
-        .clamp(1, MAX_CHUNK.min(device.max_rows(inputs, outputs)));
+    let chunk = plan.chunk.clamp(1, MAX_CHUNK.min(device.max_rows(inputs, outputs)));
     let empty = || Summary::new(plan.problem, plan.max_failures);
-    let mut audited = Audited {
-        oracle: OracleSummary::default(),
-        summaries: programs.iter().map(|_| empty()).collect(),
-    };
+    let mut audited =
+        Audited { oracle: OracleSummary::default(), summaries: programs.iter().map(|_| empty()).collect() };
 
     std::thread::scope(|scope| {
         // Holds one finished chunk while the next is drawn.
@@ -106,23 +102,14 @@ pub fn audit<D: Device>(
         while !in_flight.is_empty() {
             judge_oldest(&mut in_flight)?;
         }
-        if stop.load(Ordering::Relaxed) {
-            Err(Stopped::Interrupted)
-        } else {
-            Ok(())
-        }
+        if stop.load(Ordering::Relaxed) { Err(Stopped::Interrupted) } else { Ok(()) }
     })?;
     Ok(audited)
 }
 
 /// Compares a chunk's outputs with its truth.
 pub fn judge<O: Outputs + Sync>(plan: &Plan<'_>, chunk: &Chunk, outputs: &O) -> Summary {
-    let components: usize = plan
-        .problem
-        .outputs()
-        .iter()
-        .map(|output| output.field.ty.components())
-        .sum();
+    let components: usize = plan.problem.outputs().iter().map(|output| output.field.ty.components()).sum();
     let columns: Vec<&[f32]> = (0..components).map(|column| outputs.column(column)).collect();
     (0..chunk.rows().div_ceil(BLOCK))
         .into_par_iter()

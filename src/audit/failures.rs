@@ -27,26 +27,17 @@ pub struct Failures {
 
 impl Failures {
     pub fn new(limit: usize) -> Self {
-        Failures {
-            limit,
-            kept: BinaryHeap::new(),
-        }
+        Failures { limit, kept: BinaryHeap::new() }
     }
 
     /// Offers the failure of configuration `index`, which is only looked at if it is kept.
     pub fn offer(&mut self, index: u64, failure: impl FnOnce() -> Failure) {
         let rank = (hash(index), index);
         if self.kept.len() < self.limit {
-            self.kept.push(Ranked {
-                rank,
-                failure: failure(),
-            });
+            self.kept.push(Ranked { rank, failure: failure() });
         } else if self.kept.peek().is_some_and(|worst| rank < worst.rank) {
             self.kept.pop();
-            self.kept.push(Ranked {
-                rank,
-                failure: failure(),
-            });
+            self.kept.push(Ranked { rank, failure: failure() });
         }
     }
 

@@ -18,9 +18,7 @@ const LAST: usize = PER_OCTAVE * OCTAVES + 1;
 
 impl Default for Histogram {
     fn default() -> Self {
-        Histogram {
-            counts: vec![0; LAST + 1],
-        }
+        Histogram { counts: vec![0; LAST + 1] }
     }
 }
 
@@ -82,10 +80,7 @@ fn upper_edge(bucket: usize) -> f64 {
         return f64::INFINITY;
     }
     let octave = LOWEST + (bucket / PER_OCTAVE) as i64;
-    libm::ldexp(
-        1.0 + (bucket % PER_OCTAVE) as f64 / PER_OCTAVE as f64,
-        octave as i32,
-    )
+    libm::ldexp(1.0 + (bucket % PER_OCTAVE) as f64 / PER_OCTAVE as f64, octave as i32)
 }
 
 #[cfg(test)]

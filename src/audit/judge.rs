@@ -27,13 +27,7 @@ pub struct Measure {
 impl Measure {
     fn failed(verdict: Verdict) -> Self {
         let worst = f64::INFINITY;
-        Measure {
-            verdict,
-            error: worst,
-            ulp: worst,
-            conditioned: worst,
-            steps: [worst; 3],
-        }
+        Measure { verdict, error: worst, ulp: worst, conditioned: worst, steps: [worst; 3] }
     }
 
     /// From an error in the quantity's own measure, the same in absolute terms, and the spacings there.
@@ -46,20 +40,10 @@ impl Measure {
         } else {
             Verdict::Inaccurate
         };
-        let conditioned = if absolute == 0.0 {
-            0.0
-        } else {
-            absolute / explained
-        };
+        let conditioned = if absolute == 0.0 { 0.0 } else { absolute / explained };
         let [f32_step, f16_step] = spacings;
         let steps = [255.0 * error, 1023.0 * error, absolute / f16_step];
-        Measure {
-            verdict,
-            error,
-            ulp: absolute / f32_step,
-            conditioned,
-            steps,
-        }
+        Measure { verdict, error, ulp: absolute / f32_step, conditioned, steps }
     }
 }
 
@@ -68,19 +52,50 @@ impl Measure {
 /// `sensitivity` is the oracle's: the change of the truth for a relative change of every input by one.
 pub fn measure(output: &Output, values: &[f32], truth: &[f64], sensitivity: f64) -> Measure {
     match output.quantity {
-        Quantity::Length => length(output, values[0], truth[0], sensitivity),
+        Quantity::Magnitude | Quantity::Scalar => relative(output, values[0], truth[0], sensitivity),
+        Quantity::Irradiance => irradiance(output, values[0], truth[0], sensitivity),
+        Quantity::VectorIrradiance => {
+            let value = vector(values);
+            vector_irradiance(output, value, DVec3::from_slice(truth), sensitivity)
+        }
         Quantity::UnitVector { sign_free } => {
-            let value = DVec3::new(f64::from(values[0]), f64::from(values[1]), f64::from(values[2]));
-            unit_vector(output, sign_free, value, DVec3::from_slice(truth), sensitivity)
+            unit_vector(output, sign_free, vector(values), DVec3::from_slice(truth), sensitivity)
         }
     }
 }
 
-fn length(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Measure {
+fn vector(values: &[f32]) -> DVec3 {
+    DVec3::new(f64::from(values[0]), f64::from(values[1]), f64::from(values[2]))
+}
+
+fn irradiance(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Measure {
+    if !value.is_finite() {
+        return Measure::failed(Verdict::NonFinite);
+    }
+    let value = f64::from(value);
+    let error = (value - truth).abs();
+    let mut measure =
+        Measure::graded(error, error, [f32_spacing(truth), f16_spacing(truth)], output, sensitivity);
+    if !(-output.tolerance..=1.0 + output.tolerance).contains(&value) {
+        measure.verdict = Verdict::OutOfRange;
+    }
+    measure
+}
+
+fn vector_irradiance(output: &Output, value: DVec3, truth: DVec3, sensitivity: f64) -> Measure {
+    if !value.is_finite() {
+        return Measure::failed(Verdict::NonFinite);
+    }
+    let error = (value - truth).length();
+    let size = truth.length();
+    Measure::graded(error, error, [f32_spacing(size), f16_spacing(size)], output, sensitivity)
+}
+
+fn relative(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Measure {
     /// What rounds to infinity: the largest f32 and half its spacing.
     const OVERFLOW: f64 = f32::MAX as f64 * (1.0 + UNIT_ROUNDOFF / 2.0);
     if !value.is_finite() {
-        let overflows = value == f32::INFINITY && truth >= OVERFLOW;
+        let overflows = value.is_infinite() && truth.abs() >= OVERFLOW && (value > 0.0) == (truth > 0.0);
         return if overflows {
             Measure::graded(0.0, 0.0, [1.0, 1.0], output, sensitivity)
         } else {
@@ -90,15 +105,13 @@ fn length(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Measure 
     // A device may flush subnormals to zero: an error of up to the smallest normal number is free.
     const FLUSH: f64 = f32::MIN_POSITIVE as f64;
     let absolute = (f64::from(value) - truth).abs();
-    let error = (absolute - FLUSH).max(0.0) / truth.max(FLUSH);
-    let mut measure = Measure::graded(
-        error,
-        absolute,
-        [f32_spacing(truth), f16_spacing(truth)],
-        output,
-        sensitivity,
-    );
-    if value < 0.0 && measure.verdict != Verdict::Ok {
+    let error = (absolute - FLUSH).max(0.0) / truth.abs().max(FLUSH);
+    let mut measure =
+        Measure::graded(error, absolute, [f32_spacing(truth), f16_spacing(truth)], output, sensitivity);
+    // Blaming a sign needs a truth whose sign is certain: not one that rounding the inputs may turn.
+    let wrong =
+        if output.quantity == Quantity::Magnitude { value < 0.0 } else { f64::from(value) * truth < 0.0 };
+    if wrong && measure.verdict == Verdict::Inaccurate {
         measure.verdict = Verdict::WrongSign;
     }
     measure
@@ -116,12 +129,8 @@ fn unit_vector(output: &Output, sign_free: bool, value: DVec3, truth: DVec3, sen
         let dot = value.dot(truth);
         let dot = if sign_free { dot.abs() } else { dot };
         let tangent = value.cross(truth).length() / dot;
-        // Below 2^-20 the tangent is the angle to 3e-13 of itself, at a third of atan2's cost; NaN fails the test.
-        if (0.0..TINY).contains(&tangent) {
-            tangent
-        } else {
-            f64::atan2(value.cross(truth).length(), dot)
-        }
+        // Below 2^-20 the tangent is the angle to 3e-13 of itself, at a third of atan2's cost.
+        if dot > 0.0 && tangent < TINY { tangent } else { f64::atan2(value.cross(truth).length(), dot) }
     };
     // binary16 has steps of 2^-11 just below 1.
     let mut measure = Measure::graded(angle, angle, [UNIT_ROUNDOFF, 1.0 / 2048.0], output, sensitivity);
@@ -137,11 +146,7 @@ fn unit_vector(output: &Output, sign_free: bool, value: DVec3, truth: DVec3, sen
 pub(super) fn holds<'a>(relation: Relation, outputs: &[Output], values: impl Fn(usize) -> &'a [f32]) -> bool {
     match relation {
         Relation::Orthogonal(a, b) => {
-            let vector = |output: usize| {
-                let v = values(output);
-                DVec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))
-            };
-            let (u, v) = (vector(a), vector(b));
+            let (u, v) = (vector(values(a)), vector(values(b)));
             let tolerance = outputs[a].tolerance.max(outputs[b].tolerance);
             // A zero or non-finite vector has its own verdict.
             !(u.dot(v).abs() > tolerance * u.length() * v.length())
@@ -154,7 +159,7 @@ mod tests {
     use super::*;
     use crate::catalog::Type;
 
-    const LENGTH: Output = Output::new("l", Type::Float, Quantity::Length, 1e-3);
+    const LENGTH: Output = Output::new("l", Type::Float, Quantity::Magnitude, 1e-3);
     const AXIS: Output = Output::new("a", Type::Vec3, Quantity::UnitVector { sign_free: true }, 1e-3);
     const WAY: Output = Output::new("w", Type::Vec3, Quantity::UnitVector { sign_free: false }, 1e-3);
 
@@ -167,10 +172,7 @@ mod tests {
         assert_eq!(length_verdict(1.0, 1.0, 1.0), Verdict::Ok);
         assert_eq!(length_verdict(1.0009, 1.0, 1.0), Verdict::Ok);
         assert_eq!(length_verdict(1.0011, 1.0, 1.0), Verdict::Inaccurate);
-        assert_eq!(
-            length_verdict(1.0011, 1.0, 0.0012 / (4.0 * UNIT_ROUNDOFF)),
-            Verdict::IllConditioned
-        );
+        assert_eq!(length_verdict(1.0011, 1.0, 0.0012 / (4.0 * UNIT_ROUNDOFF)), Verdict::IllConditioned);
         assert_eq!(length_verdict(-1.0, 1.0, 1.0), Verdict::WrongSign);
         assert_eq!(length_verdict(-0.0, 0.0, 0.0), Verdict::Ok);
         assert_eq!(length_verdict(f32::NAN, 1.0, f64::INFINITY), Verdict::NonFinite);
@@ -202,28 +204,43 @@ mod tests {
         assert_eq!(verdict(&AXIS, [0.0, 0.0, -1.0], 1.0), Verdict::Ok);
         assert_eq!(verdict(&WAY, [0.0, 0.0, -1.0], 1.0), Verdict::Inaccurate);
         assert_eq!(verdict(&AXIS, [0.002, 0.0, 1.0], 1.0), Verdict::Inaccurate);
-        assert_eq!(
-            verdict(&AXIS, [0.002, 0.0, 1.0], 0.01 / UNIT_ROUNDOFF),
-            Verdict::IllConditioned
-        );
+        assert_eq!(verdict(&AXIS, [0.002, 0.0, 1.0], 0.01 / UNIT_ROUNDOFF), Verdict::IllConditioned);
         assert_eq!(verdict(&AXIS, [1.0, 0.0, 0.0], f64::INFINITY), Verdict::Ok);
         assert_eq!(verdict(&AXIS, [0.0, 0.0, 1.1], 1.0), Verdict::NotUnit);
         assert_eq!(verdict(&AXIS, [0.0, 0.0, 0.0], f64::INFINITY), Verdict::NotUnit);
-        assert_eq!(
-            verdict(&AXIS, [0.0, f32::NAN, 1.0], f64::INFINITY),
-            Verdict::NonFinite
-        );
+        assert_eq!(verdict(&AXIS, [0.0, f32::NAN, 1.0], f64::INFINITY), Verdict::NonFinite);
         let angle = measure(&AXIS, &[1.0, 0.0, 1.0], &[0.0, 0.0, 1.0], 1.0).error;
         assert!((angle - std::f64::consts::FRAC_PI_4).abs() < 1e-12);
+    }
+
+    #[test]
+    fn irradiances() {
+        let light = Output::new("e", Type::Float, Quantity::Irradiance, 1e-4);
+        let verdict =
+            |value: f32, truth, sensitivity| measure(&light, &[value], &[truth], sensitivity).verdict;
+        assert_eq!(verdict(0.500_09, 0.5, 1.0), Verdict::Ok);
+        assert_eq!(verdict(0.500_11, 0.5, 1.0), Verdict::Inaccurate);
+        assert_eq!(verdict(-0.01, 0.0, 1.0), Verdict::OutOfRange);
+        assert_eq!(verdict(1.01, 1.0, 1.0), Verdict::OutOfRange);
+        assert_eq!(verdict(f32::NAN, 1.0, 1.0), Verdict::NonFinite);
+        assert_eq!(verdict(0.5, 0.3, 1.0 / UNIT_ROUNDOFF), Verdict::IllConditioned);
+    }
+
+    #[test]
+    fn signs_of_scalars() {
+        let value = Output::new("x", Type::Float, Quantity::Scalar, 1e-3);
+        let verdict = |v: f32, truth, sensitivity| measure(&value, &[v], &[truth], sensitivity).verdict;
+        assert_eq!(verdict(-1.0, -1.0, 1.0), Verdict::Ok);
+        assert_eq!(verdict(1.0, -1.0, 1.0), Verdict::WrongSign);
+        assert_eq!(verdict(1e-9, -1e-9, 1.0), Verdict::IllConditioned);
+        assert_eq!(verdict(f32::NEG_INFINITY, -4e38, 1.0), Verdict::Ok);
     }
 
     #[test]
     fn orthogonality() {
         let outputs = [AXIS, AXIS];
         let check = |u: [f32; 3], v: [f32; 3]| {
-            holds(Relation::Orthogonal(0, 1), &outputs, |output| {
-                if output == 0 { &u } else { &v }
-            })
+            holds(Relation::Orthogonal(0, 1), &outputs, |output| if output == 0 { &u } else { &v })
         };
         // The closures borrow for the call only.
         assert!(check([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));

@@ -72,19 +72,12 @@ pub(super) struct Row<'a> {
 
 impl Summary {
     pub fn new(problem: &dyn Problem, max_failures: usize) -> Self {
-        let bin = Bin {
-            verdicts: [0; Verdict::ALL.len()],
-            beyond: [0; MAX_OUTPUTS],
-        };
+        let bin = Bin { verdicts: [0; Verdict::ALL.len()], beyond: [0; MAX_OUTPUTS] };
         Summary {
             configurations: 0,
             verdicts: [0; Verdict::ALL.len()],
             outputs: vec![OutputSummary::default(); problem.outputs().len()],
-            landmarks: problem
-                .landmarks()
-                .iter()
-                .map(|l| vec![bin.clone(); l.edges.len() + 1])
-                .collect(),
+            landmarks: problem.landmarks().iter().map(|l| vec![bin.clone(); l.edges.len() + 1]).collect(),
             failures: Failures::new(max_failures),
         }
     }
@@ -149,12 +142,7 @@ impl Summary {
         for (mine, theirs) in self.outputs.iter_mut().zip(&other.outputs) {
             mine.merge(theirs);
         }
-        for (mine, theirs) in self
-            .landmarks
-            .iter_mut()
-            .flatten()
-            .zip(other.landmarks.iter().flatten())
-        {
+        for (mine, theirs) in self.landmarks.iter_mut().flatten().zip(other.landmarks.iter().flatten()) {
             add(&mut mine.verdicts, &theirs.verdicts);
             add(&mut mine.beyond, &theirs.beyond);
         }
@@ -168,11 +156,7 @@ impl Summary {
 
     /// Configurations that failed by the variant's fault.
     pub fn failed(&self) -> u64 {
-        Verdict::ALL
-            .iter()
-            .filter(|verdict| verdict.is_failure())
-            .map(|verdict| self.count(*verdict))
-            .sum()
+        Verdict::ALL.iter().filter(|verdict| verdict.is_failure()).map(|verdict| self.count(*verdict)).sum()
     }
 }
 

@@ -18,19 +18,22 @@ pub enum Verdict {
     NotUnit,
     /// A value of the wrong sign, such as a negative length.
     WrongSign,
+    /// A share of the whole that is negative or above all there is.
+    OutOfRange,
     /// NaN or infinite where the truth is a finite f32.
     NonFinite,
 }
 
 impl Verdict {
     /// Every verdict, ascending.
-    pub const ALL: [Verdict; 7] = [
+    pub const ALL: [Verdict; 8] = [
         Verdict::Ok,
         Verdict::IllConditioned,
         Verdict::Inaccurate,
         Verdict::NotOrthogonal,
         Verdict::NotUnit,
         Verdict::WrongSign,
+        Verdict::OutOfRange,
         Verdict::NonFinite,
     ];
 
@@ -43,6 +46,7 @@ impl Verdict {
             Verdict::NotOrthogonal => "not_orthogonal",
             Verdict::NotUnit => "not_unit",
             Verdict::WrongSign => "wrong_sign",
+            Verdict::OutOfRange => "out_of_range",
             Verdict::NonFinite => "non_finite",
         }
     }

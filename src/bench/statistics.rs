@@ -71,11 +71,9 @@ mod tests {
     /// Values of the published examples: Newcombe, Statistics in Medicine 17 (1998), table I.
     #[test]
     fn intervals_agree_with_tables() {
-        for (count, total, expected) in [
-            (81, 263, (0.2553, 0.3662)),
-            (15, 148, (0.0624, 0.1605)),
-            (1, 29, (0.0061, 0.1718)),
-        ] {
+        for (count, total, expected) in
+            [(81, 263, (0.2553, 0.3662)), (15, 148, (0.0624, 0.1605)), (1, 29, (0.0061, 0.1718))]
+        {
             let (low, high) = rate_interval(count, total);
             assert!(
                 (low - expected.0).abs() < 5e-5 && (high - expected.1).abs() < 5e-5,

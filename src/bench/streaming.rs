@@ -110,13 +110,7 @@ pub fn streaming<D: Device>(
     }
     let timing = |(samples, repeats): (Vec<f64>, usize)| {
         let ns = Quartiles::of(&samples)?;
-        Some(Timing {
-            ns,
-            clock,
-            rounds: samples.len(),
-            configurations,
-            repeats,
-        })
+        Some(Timing { ns, clock, rounds: samples.len(), configurations, repeats })
     };
     Ok(samples.into_iter().zip(repeats).filter_map(timing).collect())
 }

@@ -62,11 +62,7 @@ impl std::fmt::Display for Define {
 impl FrontMatter {
     /// Reads the block at the head of `text`; errors name `file` and the line.
     pub fn parse(file: &str, text: &str) -> Result<FrontMatter, Error> {
-        let fail = |line: usize, message: String| Error::FrontMatter {
-            file: file.to_owned(),
-            line,
-            message,
-        };
+        let fail = |line: usize, message: String| Error::FrontMatter { file: file.to_owned(), line, message };
         let Some(rest) = text.strip_prefix(OPENING) else {
             return Err(fail(1, format!("front matter must begin the file: '{OPENING}'")));
         };
@@ -81,9 +77,7 @@ impl FrontMatter {
         })?;
         let line_of = |name: &str| {
             let quoted = format!("\"{name}\"");
-            1 + block
-                .find(&quoted)
-                .map_or(0, |at| block[..at].matches('\n').count())
+            1 + block.find(&quoted).map_or(0, |at| block[..at].matches('\n').count())
         };
         if parsed.variants.is_empty() {
             return Err(fail(1, "at least one [[variant]] is needed".to_owned()));
@@ -91,19 +85,14 @@ impl FrontMatter {
         for (position, variant) in parsed.variants.iter().enumerate() {
             let name = &variant.name;
             if name.is_empty()
-                || !name
-                    .bytes()
-                    .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_')
+                || !name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_')
             {
                 return Err(fail(
                     line_of(name),
                     format!("variant name '{name}' must be lower-case letters, digits and '_'"),
                 ));
             }
-            if parsed.variants[..position]
-                .iter()
-                .any(|earlier| earlier.name == *name)
-            {
+            if parsed.variants[..position].iter().any(|earlier| earlier.name == *name) {
                 return Err(fail(line_of(name), format!("variant '{name}' is declared twice")));
             }
         }
@@ -135,18 +124,9 @@ mod tests {
         let cases = [
             ("float f;", "f.comp:1: front matter must begin"),
             ("/*---\nsummary = \"s\"\n", "f.comp:1: front matter is not closed"),
-            (
-                "/*---\nsummary = \"s\"\nsource = \"o\"\nauthor = \"x\"\n---*/",
-                "f.comp:4: unknown field",
-            ),
-            (
-                "/*---\nsummary = 3\nsource = \"o\"\n---*/",
-                "f.comp:2: invalid type",
-            ),
-            (
-                "/*---\nsummary = \"s\"\nsource = \"o\"\n---*/",
-                "f.comp:1: at least one [[variant]]",
-            ),
+            ("/*---\nsummary = \"s\"\nsource = \"o\"\nauthor = \"x\"\n---*/", "f.comp:4: unknown field"),
+            ("/*---\nsummary = 3\nsource = \"o\"\n---*/", "f.comp:2: invalid type"),
+            ("/*---\nsummary = \"s\"\nsource = \"o\"\n---*/", "f.comp:1: at least one [[variant]]"),
             (
                 "/*---\nsummary = \"s\"\nsource = \"o\"\n[[variant]]\nname = \"A\"\n---*/",
                 "f.comp:5: variant name 'A'",

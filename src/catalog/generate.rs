@@ -53,30 +53,18 @@ pub(super) fn epilogue(signature: &Signature) -> String {
             format!("{}({})", parameter.ty.glsl(), loads.join(", "))
         })
         .collect();
-    _ = writeln!(
-        text,
-        "    {} r = {}(",
-        signature.result_type(),
-        signature.function
-    );
+    _ = writeln!(text, "    {} r = {}(", signature.result_type(), signature.function);
     _ = writeln!(text, "        {});", arguments.join(",\n        "));
     let mut column = 0;
     for field in &signature.results {
-        let value = if signature.results.len() == 1 {
-            "r".to_owned()
-        } else {
-            format!("r.{}", field.name)
-        };
+        let value = if signature.results.len() == 1 { "r".to_owned() } else { format!("r.{}", field.name) };
         for component in 0..field.ty.components() {
             let component = match field.ty {
                 Type::Float => String::new(),
                 Type::Mat3 => format!("[{}][{}]", component / 3, component % 3),
                 Type::Vec2 | Type::Vec3 | Type::Vec4 => format!("[{component}]"),
             };
-            _ = writeln!(
-                text,
-                "    rootq_outputs[{column}u * rootq_stride + i] = {value}{component};"
-            );
+            _ = writeln!(text, "    rootq_outputs[{column}u * rootq_stride + i] = {value}{component};");
             column += 1;
         }
     }

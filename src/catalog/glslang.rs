@@ -108,12 +108,7 @@ pub(super) fn compile(text: &str, includes: Includes<'_>, debug_lines: bool) -> 
 
 /// glslang's version, for the record: `15.4.0`.
 pub(super) fn version() -> String {
-    let mut version = sys::glslang_version_t {
-        major: 0,
-        minor: 0,
-        patch: 0,
-        flavor: ptr::null(),
-    };
+    let mut version = sys::glslang_version_t { major: 0, minor: 0, patch: 0, flavor: ptr::null() };
     // SAFETY: fills the struct it is given.
     unsafe { sys::glslang_get_version(&mut version) };
     format!("{}.{}.{}", version.major, version.minor, version.patch)

@@ -28,10 +28,7 @@ impl Range {
     /// The push-constant block's bytes.
     pub fn bytes(&self) -> [u8; 12] {
         let mut bytes = [0; 12];
-        for (slot, word) in bytes
-            .chunks_exact_mut(4)
-            .zip([self.first, self.count, self.stride])
-        {
+        for (slot, word) in bytes.chunks_exact_mut(4).zip([self.first, self.count, self.stride]) {
             slot.copy_from_slice(&word.to_ne_bytes());
         }
         bytes

@@ -74,9 +74,7 @@ impl Catalog {
                 continue;
             }
             if name.contains('/')
-                || Path::new(name)
-                    .extension()
-                    .is_none_or(|extension| extension != EXTENSION)
+                || Path::new(name).extension().is_none_or(|extension| extension != EXTENSION)
             {
                 return Err(Error::Stray { file });
             }
@@ -102,9 +100,7 @@ impl Catalog {
 
     /// The variants of one family.
     pub fn family<'a>(&'a self, family: &'a str) -> impl Iterator<Item = &'a Variant> {
-        self.variants
-            .iter()
-            .filter(move |variant| variant.family == family)
+        self.variants.iter().filter(move |variant| variant.family == family)
     }
 }
 
@@ -152,17 +148,11 @@ impl Variant {
             generate::epilogue(signature),
         );
         let includes = |name: &str, _includer: &str| {
-            BUILT_IN
-                .get_file(name)
-                .and_then(|file| file.contents_utf8())
-                .map(str::to_owned)
+            BUILT_IN.get_file(name).and_then(|file| file.contents_utf8()).map(str::to_owned)
         };
         let mut spirv =
             glslang::compile(&text, &includes, debug_lines).map_err(|log| self.failure(signature, &log))?;
-        let broken = |message| Error::Reflection {
-            id: self.id(),
-            message,
-        };
+        let broken = |message| Error::Reflection { id: self.id(), message };
         if self.precise {
             spirv = reflect::forbid_contraction(&spirv).map_err(broken)?;
         }
@@ -178,11 +168,7 @@ impl Variant {
 
     /// The first error of glslang's log, with file and line.
     fn failure(&self, signature: &Signature, log: &str) -> Error {
-        let first = log
-            .lines()
-            .find_map(|line| line.strip_prefix("ERROR: "))
-            .unwrap_or(log)
-            .trim();
+        let first = log.lines().find_map(|line| line.strip_prefix("ERROR: ")).unwrap_or(log).trim();
         let (file, line, message) = locate(first).unwrap_or((self.file.clone(), 0, first));
         if file == GENERATED {
             // The text itself is sound: its function is missing or has another signature.
@@ -192,12 +178,7 @@ impl Variant {
                 message: message.to_owned(),
             };
         }
-        Error::Compile {
-            id: self.id(),
-            file,
-            line,
-            message: message.to_owned(),
-        }
+        Error::Compile { id: self.id(), file, line, message: message.to_owned() }
     }
 }
 
@@ -217,30 +198,13 @@ pub fn compiler_version() -> String {
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{file}:{line}: {message}")]
-    FrontMatter {
-        file: String,
-        line: usize,
-        message: String,
-    },
+    FrontMatter { file: String, line: usize, message: String },
     #[error("{file}:{line}: {message} (compiling {id})")]
-    Compile {
-        id: String,
-        file: String,
-        line: usize,
-        message: String,
-    },
+    Compile { id: String, file: String, line: usize, message: String },
     #[error("{file}: the function must be '{expected}' ({message})")]
-    Signature {
-        file: String,
-        expected: String,
-        message: String,
-    },
+    Signature { file: String, expected: String, message: String },
     #[error("{id} is declared in {first} and again in {second}")]
-    Duplicate {
-        id: String,
-        first: String,
-        second: String,
-    },
+    Duplicate { id: String, first: String, second: String },
     #[error("{file}: variants live in glsl/<family>/<name>.{EXTENSION}, shared steps in glsl/{COMMON}/")]
     Stray { file: String },
     #[error("{id}: {message}")]
@@ -258,10 +222,7 @@ mod tests {
         Signature {
             function: "scaled_sum",
             parameters: vec![Field::new("m", Type::Mat3), Field::new("v", Type::Vec3)],
-            results: vec![
-                Field::new("sum", Type::Vec3),
-                Field::new("length_squared", Type::Float),
-            ],
+            results: vec![Field::new("sum", Type::Vec3), Field::new("length_squared", Type::Float)],
         }
     }
 
@@ -303,30 +264,19 @@ mod tests {
 
     #[test]
     fn an_error_names_the_authors_line() {
-        let error = variants(&BODY.replace("m * v", "m * w"))[0]
-            .compile(&signature(), false)
-            .unwrap_err();
+        let error = variants(&BODY.replace("m * v", "m * w"))[0].compile(&signature(), false).unwrap_err();
         assert!(
-            error
-                .to_string()
-                .starts_with("scaled_sum/a.comp:11: 'w' : undeclared identifier"),
+            error.to_string().starts_with("scaled_sum/a.comp:11: 'w' : undeclared identifier"),
             "{error}"
         );
     }
 
     #[test]
     fn a_wrong_signature_is_told_as_such() {
-        let error = variants(
-            &BODY
-                .replace("vec3 v)", "vec2 w)")
-                .replace("m * v", "m * vec3(w, 0)"),
-        )[0]
-        .compile(&signature(), false)
-        .unwrap_err();
+        let error = variants(&BODY.replace("vec3 v)", "vec2 w)").replace("m * v", "m * vec3(w, 0)"))[0]
+            .compile(&signature(), false)
+            .unwrap_err();
         let message = error.to_string();
-        assert!(
-            message.contains("must be 'ScaledSum scaled_sum(mat3 m, vec3 v)'"),
-            "{message}"
-        );
+        assert!(message.contains("must be 'ScaledSum scaled_sum(mat3 m, vec3 v)'"), "{message}");
     }
 }

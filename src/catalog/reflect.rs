@@ -37,13 +37,10 @@ pub(super) fn facts(words: &[u32]) -> Result<Facts, String> {
         }
     }
     let capabilities =
-        module
-            .capabilities
-            .iter()
-            .filter_map(|instruction| match instruction.operands.first() {
-                Some(Operand::Capability(capability)) => Some(format!("{capability:?}")),
-                _ => None,
-            });
+        module.capabilities.iter().filter_map(|instruction| match instruction.operands.first() {
+            Some(Operand::Capability(capability)) => Some(format!("{capability:?}")),
+            _ => None,
+        });
     let mut float_operations = BTreeMap::new();
     let mut arithmetic = 0;
     for instruction in instructions(&module) {
@@ -52,17 +49,11 @@ pub(super) fn facts(words: &[u32]) -> Result<Facts, String> {
         }
         arithmetic += usize::from(may_contract(instruction.class.opcode));
     }
-    let no_contraction = module
-        .annotations
-        .iter()
-        .filter(|annotation| decorates_no_contraction(annotation))
-        .count();
+    let no_contraction =
+        module.annotations.iter().filter(|annotation| decorates_no_contraction(annotation)).count();
     let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     Ok(Facts {
-        sha256: Sha256::digest(&bytes)
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect(),
+        sha256: Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect(),
         words: words.len(),
         local_size,
         capabilities: capabilities.collect(),
@@ -98,10 +89,7 @@ fn load(words: &[u32]) -> Result<Module, String> {
 }
 
 fn instructions(module: &Module) -> impl Iterator<Item = &Instruction> {
-    module
-        .functions
-        .iter()
-        .flat_map(|function| function.all_inst_iter())
+    module.functions.iter().flat_map(|function| function.all_inst_iter())
 }
 
 fn decorates_no_contraction(annotation: &Instruction) -> bool {

@@ -61,10 +61,7 @@ impl Field {
     /// The field's column names, in storage order: `v1` of type `Vec3` gives `v1_x`, `v1_y`, `v1_z`.
     pub fn columns(&self) -> impl Iterator<Item = String> + use<> {
         let name = self.name;
-        self.ty
-            .suffixes()
-            .iter()
-            .map(move |suffix| format!("{name}{suffix}"))
+        self.ty.suffixes().iter().map(move |suffix| format!("{name}{suffix}"))
     }
 }
 
@@ -107,17 +104,9 @@ impl Signature {
 
     /// The function's declaration as a variant's author writes it, without the body.
     pub fn declaration(&self) -> String {
-        let parameters: Vec<String> = self
-            .parameters
-            .iter()
-            .map(|field| format!("{} {}", field.ty.glsl(), field.name))
-            .collect();
-        format!(
-            "{} {}({})",
-            self.result_type(),
-            self.function,
-            parameters.join(", ")
-        )
+        let parameters: Vec<String> =
+            self.parameters.iter().map(|field| format!("{} {}", field.ty.glsl(), field.name)).collect();
+        format!("{} {}({})", self.result_type(), self.function, parameters.join(", "))
     }
 }
 
@@ -129,10 +118,7 @@ mod tests {
         Signature {
             function: "ellipse_axes",
             parameters: vec![Field::new("v1", Type::Vec3), Field::new("m", Type::Mat3)],
-            results: vec![
-                Field::new("major", Type::Vec3),
-                Field::new("minor_len", Type::Float),
-            ],
+            results: vec![Field::new("major", Type::Vec3), Field::new("minor_len", Type::Float)],
         }
     }
 
@@ -140,23 +126,14 @@ mod tests {
     fn columns_follow_the_fields() {
         assert_eq!(
             ellipse().input_columns(),
-            [
-                "v1_x", "v1_y", "v1_z", "m_00", "m_01", "m_02", "m_10", "m_11", "m_12", "m_20", "m_21",
-                "m_22"
-            ]
+            ["v1_x", "v1_y", "v1_z", "m_00", "m_01", "m_02", "m_10", "m_11", "m_12", "m_20", "m_21", "m_22"]
         );
-        assert_eq!(
-            ellipse().output_columns(),
-            ["major_x", "major_y", "major_z", "minor_len"]
-        );
+        assert_eq!(ellipse().output_columns(), ["major_x", "major_y", "major_z", "minor_len"]);
     }
 
     #[test]
     fn one_result_needs_no_struct() {
-        assert_eq!(
-            ellipse().declaration(),
-            "EllipseAxes ellipse_axes(vec3 v1, mat3 m)"
-        );
+        assert_eq!(ellipse().declaration(), "EllipseAxes ellipse_axes(vec3 v1, mat3 m)");
         let mut single = ellipse();
         single.results.truncate(1);
         assert_eq!(single.declaration(), "vec3 ellipse_axes(vec3 v1, mat3 m)");

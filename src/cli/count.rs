@@ -8,9 +8,7 @@ pub(super) fn parse(text: &str) -> Result<u64, String> {
         Some(b'G') => (&text[..text.len() - 1], 1_000_000_000.0),
         _ => (text, 1.0),
     };
-    let value: f64 = digits
-        .parse()
-        .map_err(|_| "a count is a number, or one with K, M or G".to_owned())?;
+    let value: f64 = digits.parse().map_err(|_| "a count is a number, or one with K, M or G".to_owned())?;
     let value = value * factor;
     // 2^53: beyond it not every count is a value of f64.
     if !(1.0..=9_007_199_254_740_992.0).contains(&value) {

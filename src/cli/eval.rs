@@ -65,10 +65,7 @@ pub(super) fn eval(arguments: &Arguments, stop: &AtomicBool) -> Result<()> {
             .collect::<Result<_>>()?
     };
     for (position, variant) in variants.iter().enumerate() {
-        if variants[..position]
-            .iter()
-            .any(|earlier| earlier.name == variant.name)
-        {
+        if variants[..position].iter().any(|earlier| earlier.name == variant.name) {
             bail!("variant '{}' is given twice", variant.name);
         }
     }
@@ -77,19 +74,13 @@ pub(super) fn eval(arguments: &Arguments, stop: &AtomicBool) -> Result<()> {
         (Box::new(io::stdin().lock()), "standard input".to_owned())
     } else {
         let name = arguments.inputs.display().to_string();
-        (
-            Box::new(File::open(&arguments.inputs).with_context(|| format!("cannot read {name}"))?),
-            name,
-        )
+        (Box::new(File::open(&arguments.inputs).with_context(|| format!("cannot read {name}"))?), name)
     };
     let reader = Reader::new(source, &name, signature.input_columns())?;
     // Written aside: a mistake in the last line must leave nothing behind.
     let draft = draft(&arguments.output)?;
-    let evaluator = if variants.is_empty() {
-        None
-    } else {
-        Some(Evaluator::new(arguments, problem, &variants)?)
-    };
+    let evaluator =
+        if variants.is_empty() { None } else { Some(Evaluator::new(arguments, problem, &variants)?) };
     write_all(&draft, reader, problem, evaluator.as_ref(), stop)?;
     if let Some(evaluator) = &evaluator {
         evaluator.machine.check_validation()?;
@@ -195,12 +186,8 @@ fn deliver(mut draft: NamedTempFile, target: &Path) -> Result<()> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        draft
-            .as_file()
-            .set_permissions(std::fs::Permissions::from_mode(0o644))?;
+        draft.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))?;
     }
-    draft
-        .persist(target)
-        .map_err(|error| anyhow!("cannot write {}: {}", target.display(), error.error))?;
+    draft.persist(target).map_err(|error| anyhow!("cannot write {}: {}", target.display(), error.error))?;
     Ok(())
 }

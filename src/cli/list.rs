@@ -28,10 +28,7 @@ pub(super) fn list(arguments: &Arguments) -> Result<()> {
         None => FAMILIES.to_vec(),
     };
     if arguments.json {
-        let all: Vec<Value> = families
-            .iter()
-            .map(|problem| describe(&catalog, *problem))
-            .collect();
+        let all: Vec<Value> = families.iter().map(|problem| describe(&catalog, *problem)).collect();
         return super::print(&(serde_json::to_string_pretty(&all)? + "\n"));
     }
     let text = match only {
@@ -42,26 +39,13 @@ pub(super) fn list(arguments: &Arguments) -> Result<()> {
 }
 
 fn brief(catalog: &Catalog, problem: &dyn Problem) -> String {
-    let names: Vec<&str> = catalog
-        .family(problem.name())
-        .map(|variant| variant.name.as_str())
-        .collect();
-    format!(
-        "{}\n    {}\n    {}\n",
-        problem.name(),
-        problem.summary(),
-        names.join(" ")
-    )
+    let names: Vec<&str> = catalog.family(problem.name()).map(|variant| variant.name.as_str()).collect();
+    format!("{}\n    {}\n    {}\n", problem.name(), problem.summary(), names.join(" "))
 }
 
 fn whole(catalog: &Catalog, problem: &dyn Problem) -> String {
     let signature = problem.signature();
-    let mut text = format!(
-        "{}\n    {}\n\n{}\n",
-        problem.name(),
-        problem.summary(),
-        signature.declaration()
-    );
+    let mut text = format!("{}\n    {}\n\n{}\n", problem.name(), problem.summary(), signature.declaration());
     _ = writeln!(text, "    inputs   {}", signature.input_columns().join(","));
     _ = writeln!(text, "    outputs  {}", signature.output_columns().join(","));
     let mut section = |title: &str, rows: Vec<(&str, &str)>| {
@@ -71,19 +55,10 @@ fn whole(catalog: &Catalog, problem: &dyn Problem) -> String {
             _ = writeln!(text, "    {name:width$}  {summary}");
         }
     };
-    section(
-        "scenarios",
-        problem.scenarios().iter().map(|s| (s.name, s.summary)).collect(),
-    );
-    section(
-        "landmark coordinates",
-        problem.landmarks().iter().map(|l| (l.name, l.summary)).collect(),
-    );
+    section("scenarios", problem.scenarios().iter().map(|s| (s.name, s.summary)).collect());
+    section("landmark coordinates", problem.landmarks().iter().map(|l| (l.name, l.summary)).collect());
     let variants = catalog.family(problem.name());
-    section(
-        "variants",
-        variants.map(|v| (v.name.as_str(), v.summary.as_str())).collect(),
-    );
+    section("variants", variants.map(|v| (v.name.as_str(), v.summary.as_str())).collect());
     text
 }
 

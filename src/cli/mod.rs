@@ -112,10 +112,7 @@ fn usage(error: &clap::Error) -> ExitCode {
         .filter(|line| !line.is_empty())
         .collect();
     let told = told.join(" ");
-    eprintln!(
-        "rootq: {} (see 'rootq --help')",
-        told.strip_prefix("error: ").unwrap_or(&told)
-    );
+    eprintln!("rootq: {} (see 'rootq --help')", told.strip_prefix("error: ").unwrap_or(&told));
     AT_FAULT.into()
 }
 

@@ -91,10 +91,7 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         if !(1..=1024).contains(&threads) {
             bail!("--threads must be from 1 to 1024");
         }
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build_global()
-            .context("--threads")?;
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().context("--threads")?;
     }
     let catalog = Catalog::embedded()?;
     let selected = selection::variants(&catalog, &arguments.select)?;
@@ -115,15 +112,7 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
     let mut groups = Vec::new();
     for family in &mut families {
         for scenario in selection::scenarios(family.selected.problem, &arguments.scenario) {
-            measure(
-                family,
-                scenario,
-                &machine.device,
-                arguments,
-                halves,
-                stop,
-                &mut groups,
-            )?;
+            measure(family, scenario, &machine.device, arguments, halves, stop, &mut groups)?;
         }
     }
     machine.check_validation()?;
@@ -191,12 +180,7 @@ fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
             results: Vec::new(),
         });
     }
-    Ok(Prepared {
-        record,
-        selected,
-        programs,
-        places,
-    })
+    Ok(Prepared { record, selected, programs, places })
 }
 
 /// One scenario of one family: audit, times, or both, into the family's record.
@@ -222,21 +206,13 @@ fn measure(
     let mut results: Vec<record::Result> = family
         .programs
         .iter()
-        .map(|_| record::Result {
-            scenario: scenario.name.to_owned(),
-            audit: None,
-            timing: None,
-        })
+        .map(|_| record::Result { scenario: scenario.name.to_owned(), audit: None, timing: None })
         .collect();
     let mut oracle = None;
 
     if halves != Halves::Bench {
         let total = arguments.configurations * family.programs.len() as u64;
-        let bar = bar(
-            total,
-            &format!("audit {label}"),
-            "{human_pos}/{human_len} {per_sec} {eta}",
-        );
+        let bar = bar(total, &format!("audit {label}"), "{human_pos}/{human_len} {per_sec} {eta}");
         let audited = audit::audit(device, &family.programs, &plan, &|count| bar.inc(count), stop)?;
         bar.finish_and_clear();
         oracle = Some(audited.oracle.into());
@@ -257,20 +233,10 @@ fn measure(
             (arguments.configurations.min(plan.chunk as u64) as usize).min(device.max_rows(inputs, outputs));
         let chunk = Chunk::draw(problem, scenario, arguments.seed, 0, rows);
         let columns = device.upload(chunk.inputs(), inputs)?;
-        let effort = Effort {
-            time: Duration::from_secs_f64(arguments.seconds),
-            ..Effort::default()
-        };
+        let effort = Effort { time: Duration::from_secs_f64(arguments.seconds), ..Effort::default() };
         let bar = bar(0, &format!("bench {label}"), "{human_pos} samples {elapsed}");
-        let timings = bench::streaming(
-            device,
-            &family.programs,
-            &columns,
-            rows,
-            &effort,
-            &|| bar.inc(1),
-            stop,
-        )?;
+        let timings =
+            bench::streaming(device, &family.programs, &columns, rows, &effort, &|| bar.inc(1), stop)?;
         bar.finish_and_clear();
         for (result, timing) in results.iter_mut().zip(timings) {
             result.timing = Some(timing);

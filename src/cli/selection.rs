@@ -45,10 +45,7 @@ pub(super) fn variants(catalog: &Catalog, patterns: &[String]) -> Result<Vec<Sel
             .map(|(variant, _)| variant.clone())
             .collect();
         if !variants.is_empty() {
-            selected.push(Selected {
-                problem: *problem,
-                variants,
-            });
+            selected.push(Selected { problem: *problem, variants });
         }
     }
     Ok(selected)
@@ -65,18 +62,11 @@ pub(super) fn family(name: &str) -> Result<&'static dyn Problem> {
 /// One variant of a family.
 pub(super) fn variant(catalog: &Catalog, problem: &dyn Problem, name: &str) -> Result<Variant> {
     let family = problem.name();
-    let short = name
-        .strip_prefix(family)
-        .and_then(|rest| rest.strip_prefix('/'))
-        .unwrap_or(name);
-    catalog
-        .family(family)
-        .find(|variant| variant.name == short)
-        .cloned()
-        .ok_or_else(|| {
-            let names = catalog.family(family).map(|variant| variant.name.clone());
-            anyhow!("unknown variant '{name}' of {family}{}", suggestion(short, names))
-        })
+    let short = name.strip_prefix(family).and_then(|rest| rest.strip_prefix('/')).unwrap_or(name);
+    catalog.family(family).find(|variant| variant.name == short).cloned().ok_or_else(|| {
+        let names = catalog.family(family).map(|variant| variant.name.clone());
+        anyhow!("unknown variant '{name}' of {family}{}", suggestion(short, names))
+    })
 }
 
 /// The scenarios of that names; all without names. Each name must be one of some selected family.
@@ -89,16 +79,10 @@ pub(super) fn scenarios(problem: &dyn Problem, names: &[String]) -> Vec<&'static
 pub(super) fn check_scenarios(selected: &[Selected], names: &[String]) -> Result<()> {
     for name in names {
         let known = || {
-            selected
-                .iter()
-                .flat_map(|selected| selected.problem.scenarios())
-                .map(|scenario| scenario.name)
+            selected.iter().flat_map(|selected| selected.problem.scenarios()).map(|scenario| scenario.name)
         };
         if !known().any(|scenario| scenario == name) {
-            bail!(
-                "unknown scenario '{name}'{}",
-                suggestion(name, known().map(str::to_owned))
-            );
+            bail!("unknown scenario '{name}'{}", suggestion(name, known().map(str::to_owned)));
         }
     }
     Ok(())
@@ -116,24 +100,16 @@ fn nothing_matches(catalog: &Catalog, pattern: &str) -> anyhow::Error {
     }
     let families = family::FAMILIES.iter().map(|family| family.name().to_owned());
     let ids = catalog.variants().iter().map(Variant::id);
-    let known: Vec<String> = if pattern.contains('/') {
-        ids.collect()
-    } else {
-        families.collect()
-    };
-    anyhow!(
-        "nothing matches '{pattern}'{}",
-        suggestion(pattern, known.into_iter())
-    )
+    let known: Vec<String> = if pattern.contains('/') { ids.collect() } else { families.collect() };
+    anyhow!("nothing matches '{pattern}'{}", suggestion(pattern, known.into_iter()))
 }
 
 /// "; did you mean 'x'?" for a near miss, else what there is, if that is short, or where to look.
 fn suggestion(wrong: &str, known: impl Iterator<Item = String>) -> String {
     let mut known: Vec<String> = known.collect();
     known.dedup();
-    let nearest = known
-        .iter()
-        .max_by(|a, b| strsim::jaro_winkler(wrong, a).total_cmp(&strsim::jaro_winkler(wrong, b)));
+    let nearest =
+        known.iter().max_by(|a, b| strsim::jaro_winkler(wrong, a).total_cmp(&strsim::jaro_winkler(wrong, b)));
     match nearest {
         Some(name) if strsim::jaro_winkler(wrong, name) > 0.8 => format!("; did you mean '{name}'?"),
         _ if known.len() <= 12 => format!("; there are: {}", known.join(", ")),

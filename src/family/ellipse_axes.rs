@@ -49,8 +49,8 @@ impl Problem for EllipseAxes {
             &[
                 Output::new("major", Type::Vec3, AXIS, 1e-3),
                 Output::new("minor", Type::Vec3, AXIS, 1e-3),
-                Output::new("major_len", Type::Float, Quantity::Length, 1e-3),
-                Output::new("minor_len", Type::Float, Quantity::Length, 1e-3).headline(),
+                Output::new("major_len", Type::Float, Quantity::Magnitude, 1e-3),
+                Output::new("minor_len", Type::Float, Quantity::Magnitude, 1e-3).headline(),
             ]
         }
     }
@@ -153,32 +153,20 @@ impl Problem for EllipseAxes {
         let major_len = libm::sqrt(0.5 * sum + h);
         let minor_len = area / major_len;
         // The right singular vector of the major axis, up to its length, from two terms of one sign.
-        let right = if tau >= 0.0 {
-            DVec2::new(tau + h, d12)
-        } else {
-            DVec2::new(d12, h - tau)
-        };
+        let right = if tau >= 0.0 { DVec2::new(tau + h, d12) } else { DVec2::new(d12, h - tau) };
         let (major, right) = if h > 0.0 {
             ((right.x * v1 + right.y * v2).normalize(), right.normalize())
         } else {
             (v1.normalize(), DVec2::X)
         };
-        let minor = if area > 0.0 {
-            n.cross(major).normalize()
-        } else {
-            major.any_orthonormal_vector()
-        };
+        let minor = if area > 0.0 { n.cross(major).normalize() } else { major.any_orthonormal_vector() };
 
         // First-order change of u^T A w when every entry of A = [V1 V2] changes by up to its own magnitude.
         let change = |u: DVec3, w: DVec2| u.abs().dot(v1.abs() * w.x.abs() + v2.abs() * w.y.abs());
         let other = DVec2::new(-right.y, right.x);
         let major_change = change(major, right);
         // Without an area the minor axis is arbitrary: any direction may be the one that the change opens.
-        let minor_change = if area > 0.0 {
-            change(minor, other)
-        } else {
-            libm::sqrt(sum)
-        };
+        let minor_change = if area > 0.0 { change(minor, other) } else { libm::sqrt(sum) };
         let in_plane = (major_len * change(minor, right) + minor_len * change(major, other)) / (2.0 * h);
         let normal = if area > 0.0 { n / area } else { DVec3::ONE };
         let major_turn = in_plane + change(normal, right) / major_len;
@@ -186,12 +174,7 @@ impl Problem for EllipseAxes {
         let defined = |defined: bool, turn: f64| if defined { turn } else { f64::INFINITY };
 
         truth.unit_vector(MAJOR, major, turn + 8.0 * EPS, defined(h > 0.0, major_turn));
-        truth.unit_vector(
-            MINOR,
-            minor,
-            turn + 16.0 * EPS,
-            defined(h > 0.0 && area > 0.0, minor_turn),
-        );
+        truth.unit_vector(MINOR, minor, turn + 16.0 * EPS, defined(h > 0.0 && area > 0.0, minor_turn));
         truth.scalar(MAJOR_LEN, major_len, 4.0 * EPS * major_len, major_change);
         truth.scalar(MINOR_LEN, minor_len, 12.0 * EPS * minor_len, minor_change);
     }
@@ -236,11 +219,7 @@ fn scene(draw: &mut Draw, row: &mut [f32]) {
         DVec3::new(0.0, flatten * stretch, 0.0),
         DVec3::new(shear_x * stretch, 0.0, 1.0),
     );
-    store(
-        row,
-        minv * (radius * frame.x_axis),
-        minv * (radius * ratio * frame.y_axis),
-    );
+    store(row, minv * (radius * frame.x_axis), minv * (radius * ratio * frame.y_axis));
 }
 
 fn edge(draw: &mut Draw, row: &mut [f32]) {
@@ -253,11 +232,7 @@ fn edge(draw: &mut Draw, row: &mut [f32]) {
         0 => store(row, DVec3::ZERO, if draw.sign() > 0.0 { v1 } else { DVec3::ZERO }),
         1 => store(row, v1, DVec3::ZERO),
         // Exactly parallel, by a power of two; then nearly parallel, by a factor that rounds.
-        2 => store(
-            row,
-            v1,
-            draw.sign() * libm::exp2(f64::from(draw.below(41)) - 20.0) * v1,
-        ),
+        2 => store(row, v1, draw.sign() * libm::exp2(f64::from(draw.below(41)) - 20.0) * v1),
         3 => store(row, v1, draw.sign() * draw.log_uniform(0.01, 100.0) * v1),
         4 => store(row, v1, v1),
         // An exact circle, in a coordinate plane.
@@ -300,15 +275,10 @@ mod tests {
         for scenario in EllipseAxes.scenarios() {
             each(scenario.name, 20_000, |row, truth| {
                 assert!(truth.worst_bound() <= CERTIFIED, "{row:?}: {truth:?}");
-                assert!(
-                    truth.values().iter().all(|value| value.is_finite()),
-                    "{row:?}: {truth:?}"
-                );
+                assert!(truth.values().iter().all(|value| value.is_finite()), "{row:?}: {truth:?}");
                 let (v1, v2) = vectors(row);
-                let (major, minor) = (
-                    DVec3::from_slice(truth.output(MAJOR)),
-                    DVec3::from_slice(truth.output(MINOR)),
-                );
+                let (major, minor) =
+                    (DVec3::from_slice(truth.output(MAJOR)), DVec3::from_slice(truth.output(MINOR)));
                 let (major_len, minor_len) = (truth.output(MAJOR_LEN)[0], truth.output(MINOR_LEN)[0]);
                 // The axes are left singular vectors: A^T u has the singular value's length. Rounding in this very
                 // check is 8 EPS of the major length.
@@ -332,19 +302,14 @@ mod tests {
             (scenario.draw)(draw, &mut row);
             let before = truth_of(&row);
             let step = 2f64.powi(-12);
-            let changed: Vec<f32> = row
-                .iter()
-                .map(|v| (f64::from(*v) * (1.0 + draw.sign() * step)) as f32)
-                .collect();
+            let changed: Vec<f32> =
+                row.iter().map(|v| (f64::from(*v) * (1.0 + draw.sign() * step)) as f32).collect();
             let after = truth_of(&changed);
             for output in [MAJOR_LEN, MINOR_LEN] {
                 let change = (after.output(output)[0] - before.output(output)[0]).abs() / step;
                 worst = worst.max(change / before.sensitivities()[output]);
             }
-            let (a, b) = (
-                DVec3::from_slice(before.output(MINOR)),
-                DVec3::from_slice(after.output(MINOR)),
-            );
+            let (a, b) = (DVec3::from_slice(before.output(MINOR)), DVec3::from_slice(after.output(MINOR)));
             let sensitivity = before.sensitivities()[MINOR];
             // First order only: leave out what turns by more than a tenth of a radian.
             if sensitivity * step < 0.1 {
@@ -358,9 +323,7 @@ mod tests {
     #[test]
     fn near_circles_escalate() {
         let mut escalated = 0;
-        each("near_circle", 10_000, |_, truth| {
-            escalated += u32::from(truth.escalated())
-        });
+        each("near_circle", 10_000, |_, truth| escalated += u32::from(truth.escalated()));
         assert!((1..5_000).contains(&escalated), "{escalated}");
         each("aspect", 1_000, |row, truth| {
             assert!(

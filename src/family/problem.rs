@@ -62,12 +62,7 @@ pub struct Output {
 
 impl Output {
     pub const fn new(name: &'static str, ty: Type, quantity: Quantity, tolerance: f64) -> Self {
-        Output {
-            field: Field::new(name, ty),
-            quantity,
-            tolerance,
-            headline: false,
-        }
+        Output { field: Field::new(name, ty), quantity, tolerance, headline: false }
     }
 
     /// The output that tables show.
@@ -80,8 +75,14 @@ impl Output {
 /// What a result is, and so how its error is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// A length, never negative: relative error.
-    Length,
+    /// A length, a tangent or another magnitude that is never negative: relative error.
+    Magnitude,
+    /// A signed value such as an eigenvalue: relative error, and the sign must be right where it matters.
+    Scalar,
+    /// Irradiance as a share of the full hemisphere's, in 0..1: absolute error.
+    Irradiance,
+    /// A vector of irradiances, such as one edge's contribution: absolute error, as the distance of the two.
+    VectorIrradiance,
     /// A direction: angle between the two in radians, and a length of 1. With `sign_free`, both signs are right.
     UnitVector { sign_free: bool },
 }
@@ -118,8 +119,7 @@ impl Landmark {
     /// The bin of a configuration.
     pub fn bin(&self, input: &[f32], truth: &Truth) -> usize {
         let coordinate = (self.coordinate)(input, truth);
-        self.edges
-            .partition_point(|edge| coordinate.is_nan() || *edge <= coordinate)
+        self.edges.partition_point(|edge| coordinate.is_nan() || *edge <= coordinate)
     }
 }
 

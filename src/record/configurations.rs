@@ -18,14 +18,8 @@ pub struct Reader<R> {
 impl<R: Read> Reader<R> {
     /// Reads the header and matches it with the input columns, each of which must be there once and nothing else.
     pub fn new(source: R, name: &str, columns: Vec<String>) -> Result<Self, Error> {
-        let fail = |message: String| Error::Table {
-            place: name.to_owned(),
-            message,
-        };
-        let mut csv = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .comment(Some(b'#'))
-            .from_reader(source);
+        let fail = |message: String| Error::Table { place: name.to_owned(), message };
+        let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(source);
         let header = csv.headers().map_err(|error| broken(name, &error))?.clone();
         if header.is_empty() {
             return Err(fail(format!(
@@ -33,51 +27,29 @@ impl<R: Read> Reader<R> {
                 columns.join(",")
             )));
         }
-        if let Some(unknown) = header
-            .iter()
-            .find(|column| !columns.iter().any(|known| known == column))
-        {
-            return Err(fail(format!(
-                "unknown column '{unknown}'; the columns are {}",
-                columns.join(",")
-            )));
+        if let Some(unknown) = header.iter().find(|column| !columns.iter().any(|known| known == column)) {
+            return Err(fail(format!("unknown column '{unknown}'; the columns are {}", columns.join(","))));
         }
         let mut places = Vec::new();
         for column in &columns {
-            let mut found = header
-                .iter()
-                .enumerate()
-                .filter(|(_, name)| name == column)
-                .map(|(place, _)| place);
+            let mut found =
+                header.iter().enumerate().filter(|(_, name)| name == column).map(|(place, _)| place);
             let place = found.next().ok_or_else(|| {
-                fail(format!(
-                    "column '{column}' is missing; the columns are {}",
-                    columns.join(",")
-                ))
+                fail(format!("column '{column}' is missing; the columns are {}", columns.join(",")))
             })?;
             if found.next().is_some() {
                 return Err(fail(format!("column '{column}' is there twice")));
             }
             places.push(place);
         }
-        Ok(Reader {
-            csv,
-            name: name.to_owned(),
-            columns,
-            places,
-            record: csv::StringRecord::new(),
-        })
+        Ok(Reader { csv, name: name.to_owned(), columns, places, record: csv::StringRecord::new() })
     }
 
     /// Up to `rows` configurations, row-major; empty at the end.
     pub fn batch(&mut self, rows: usize) -> Result<Vec<f32>, Error> {
         let mut values = Vec::with_capacity(rows.min(1 << 16) * self.places.len());
         for _ in 0..rows {
-            if !self
-                .csv
-                .read_record(&mut self.record)
-                .map_err(|error| broken(&self.name, &error))?
-            {
+            if !self.csv.read_record(&mut self.record).map_err(|error| broken(&self.name, &error))? {
                 break;
             }
             for (column, place) in self.columns.iter().zip(&self.places) {
@@ -104,11 +76,7 @@ impl<R: Read> Reader<R> {
 
 fn broken(name: &str, error: &csv::Error) -> Error {
     let (line, message) = match error.kind() {
-        csv::ErrorKind::UnequalLengths {
-            pos,
-            expected_len,
-            len,
-        } => (
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => (
             pos.as_ref().map(csv::Position::line),
             format!("{len} fields where the header has {expected_len}"),
         ),
@@ -134,10 +102,7 @@ mod tests {
 
     #[test]
     fn columns_in_any_order() {
-        assert_eq!(
-            read("b, a\n1,0x1p-1\n# words\n3,4e0\n"),
-            Ok(vec![0.5, 1.0, 4.0, 3.0])
-        );
+        assert_eq!(read("b, a\n1,0x1p-1\n# words\n3,4e0\n"), Ok(vec![0.5, 1.0, 4.0, 3.0]));
         assert_eq!(read("a,b\n"), Ok(vec![]));
     }
 

@@ -38,9 +38,9 @@ impl Column {
         };
         let builder = Type::primitive_type_builder(name, physical);
         match self {
-            Column::Text(..) => builder
-                .with_logical_type(Some(LogicalType::String))
-                .with_repetition(Repetition::REQUIRED),
+            Column::Text(..) => {
+                builder.with_logical_type(Some(LogicalType::String)).with_repetition(Repetition::REQUIRED)
+            }
             Column::Index => builder.with_repetition(Repetition::REQUIRED),
             Column::Single(..) | Column::Double(..) => builder.with_repetition(Repetition::OPTIONAL),
         }
@@ -48,16 +48,12 @@ impl Column {
     }
 
     fn write(&self, writer: &mut ColumnWriter<'_>, groups: &[FailureGroup]) -> Result<(), ParquetError> {
-        let rows = || {
-            groups
-                .iter()
-                .flat_map(|group| group.failures.iter().map(move |failure| (group, failure)))
-        };
+        let rows =
+            || groups.iter().flat_map(|group| group.failures.iter().map(move |failure| (group, failure)));
         match (self, writer) {
             (Column::Text(_, text), ColumnWriter::ByteArrayColumnWriter(writer)) => {
-                let values: Vec<ByteArray> = rows()
-                    .map(|(group, failure)| text(group, failure).into_bytes().into())
-                    .collect();
+                let values: Vec<ByteArray> =
+                    rows().map(|(group, failure)| text(group, failure).into_bytes().into()).collect();
                 writer.write_batch(&values, None, None)?;
             }
             (Column::Index, ColumnWriter::Int64ColumnWriter(writer)) => {
@@ -75,9 +71,7 @@ impl Column {
                 writer.write_batch(&values, Some(&levels), None)?;
             }
             _ => {
-                return Err(ParquetError::General(
-                    "column and writer differ in type".to_owned(),
-                ));
+                return Err(ParquetError::General("column and writer differ in type".to_owned()));
             }
         }
         Ok(())
@@ -100,29 +94,16 @@ fn optional<T>(cells: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
 
 /// Writes all groups to a new file at `path`.
 pub(super) fn write(path: &Path, groups: &[FailureGroup]) -> Result<(), Error> {
-    let file = File::create(path).map_err(|source| Error::Io {
-        action: "write",
-        path: path.to_owned(),
-        source,
-    })?;
-    write_to(file, groups).map_err(|source| Error::Parquet {
-        path: path.to_owned(),
-        source,
-    })
+    let file =
+        File::create(path).map_err(|source| Error::Io { action: "write", path: path.to_owned(), source })?;
+    write_to(file, groups).map_err(|source| Error::Parquet { path: path.to_owned(), source })
 }
 
 fn write_to(file: File, groups: &[FailureGroup]) -> Result<(), ParquetError> {
     let columns = columns(groups);
-    let fields = columns
-        .iter()
-        .map(|column| column.schema().map(Arc::new))
-        .collect::<Result<_, _>>()?;
+    let fields = columns.iter().map(|column| column.schema().map(Arc::new)).collect::<Result<_, _>>()?;
     let schema = Arc::new(Type::group_type_builder("failure").with_fields(fields).build()?);
-    let properties = Arc::new(
-        WriterProperties::builder()
-            .set_compression(Compression::SNAPPY)
-            .build(),
-    );
+    let properties = Arc::new(WriterProperties::builder().set_compression(Compression::SNAPPY).build());
     let mut file = SerializedFileWriter::new(file, schema, properties)?;
     let mut rows = file.next_row_group()?;
     for column in &columns {
@@ -153,32 +134,18 @@ fn columns(groups: &[FailureGroup]) -> Vec<Column> {
     for problem in families.iter().filter_map(|name| family::find(name)) {
         let family = problem.name();
         let named = |kind: &str, column: &str| {
-            if several {
-                format!("{kind}.{family}.{column}")
-            } else {
-                format!("{kind}.{column}")
-            }
+            if several { format!("{kind}.{family}.{column}") } else { format!("{kind}.{column}") }
         };
         let signature = problem.signature();
         for (at, column) in signature.input_columns().iter().enumerate() {
             columns.push(Column::Single(named("input", column), family, |f| &f.inputs, at));
         }
         for (at, column) in signature.output_columns().iter().enumerate() {
-            columns.push(Column::Single(
-                named("output", column),
-                family,
-                |f| &f.outputs,
-                at,
-            ));
+            columns.push(Column::Single(named("output", column), family, |f| &f.outputs, at));
             columns.push(Column::Double(named("truth", column), family, |f| &f.truth, at));
         }
         for (at, field) in signature.results.iter().enumerate() {
-            columns.push(Column::Double(
-                named("error", field.name),
-                family,
-                |f| &f.errors,
-                at,
-            ));
+            columns.push(Column::Double(named("error", field.name), family, |f| &f.errors, at));
             columns.push(Column::Double(named("ulp", field.name), family, |f| &f.ulps, at));
         }
     }

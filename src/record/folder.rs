@@ -23,16 +23,10 @@ impl Folder {
     ///
     /// The target may not exist, be an empty folder, or with `replace` hold an earlier run.
     pub fn create(target: &Path, replace: bool) -> Result<Folder, Error> {
-        let io = |action, source| Error::Io {
-            action,
-            path: target.to_owned(),
-            source,
-        };
+        let io = |action, source| Error::Io { action, path: target.to_owned(), source };
         if let Ok(mut entries) = fs::read_dir(target) {
             if entries.next().is_some() && !(replace && target.join(RUN).is_file()) {
-                return Err(Error::Occupied {
-                    path: target.to_owned(),
-                });
+                return Err(Error::Occupied { path: target.to_owned() });
             }
         } else if target.exists() {
             return Err(io("use as a folder", std::io::ErrorKind::NotADirectory.into()));
@@ -46,11 +40,7 @@ impl Folder {
             .prefix(".rootq-")
             .tempdir_in(parent)
             .map_err(|source| io("write to", source))?;
-        Ok(Folder {
-            target: target.to_owned(),
-            draft,
-            replace,
-        })
+        Ok(Folder { target: target.to_owned(), draft, replace })
     }
 
     /// Writes the record and moves the folder into place; returns where that is.
@@ -60,10 +50,8 @@ impl Folder {
             let path = path.to_owned();
             move |source| Error::Io { action, path, source }
         };
-        let mut text = serde_json::to_string(run).map_err(|source| Error::Json {
-            path: path.clone(),
-            source,
-        })?;
+        let mut text =
+            serde_json::to_string(run).map_err(|source| Error::Json { path: path.clone(), source })?;
         text.push('\n');
         fs::write(&path, text).map_err(io("write", &path))?;
         failures::write(&self.draft.path().join(FAILURES), groups)?;
@@ -94,11 +82,7 @@ fn open_permissions(folder: &Path) {
 
 /// Where a run goes if nobody says otherwise: `bench_results/<device>/<date>-<commit>`, with a number if that is taken.
 pub fn default_path(run_device: &str, date: &str, revision: &str) -> PathBuf {
-    let commit = if revision.is_empty() {
-        "unknown"
-    } else {
-        &revision[..revision.len().min(9)]
-    };
+    let commit = if revision.is_empty() { "unknown" } else { &revision[..revision.len().min(9)] };
     let folder = Path::new("bench_results").join(slug(run_device));
     let name = format!("{date}-{commit}");
     let candidates = std::iter::once(name.clone()).chain((2..1000).map(|number| format!("{name}-{number}")));
@@ -127,10 +111,7 @@ mod tests {
 
     #[test]
     fn device_names_become_folders() {
-        assert_eq!(
-            slug("llvmpipe (LLVM 15.0.6, 256 bits)"),
-            "llvmpipe-llvm-15-0-6-256-bits"
-        );
+        assert_eq!(slug("llvmpipe (LLVM 15.0.6, 256 bits)"), "llvmpipe-llvm-15-0-6-256-bits");
     }
 
     #[test]
@@ -138,18 +119,9 @@ mod tests {
         let parent = tempfile::tempdir().unwrap();
         assert!(Folder::create(parent.path(), false).is_ok());
         fs::write(parent.path().join("notes.txt"), "mine").unwrap();
-        assert!(matches!(
-            Folder::create(parent.path(), false),
-            Err(Error::Occupied { .. })
-        ));
+        assert!(matches!(Folder::create(parent.path(), false), Err(Error::Occupied { .. })));
         // Even with `replace`, only runs are replaced.
-        assert!(matches!(
-            Folder::create(parent.path(), true),
-            Err(Error::Occupied { .. })
-        ));
-        assert!(matches!(
-            Folder::create(&parent.path().join("notes.txt"), true),
-            Err(Error::Io { .. })
-        ));
+        assert!(matches!(Folder::create(parent.path(), true), Err(Error::Occupied { .. })));
+        assert!(matches!(Folder::create(&parent.path().join("notes.txt"), true), Err(Error::Io { .. })));
     }
 }

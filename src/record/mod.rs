@@ -31,23 +31,13 @@ pub struct FailureGroup {
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("cannot {action} {}", path.display())]
-    Io {
-        action: &'static str,
-        path: PathBuf,
-        source: std::io::Error,
-    },
+    Io { action: &'static str, path: PathBuf, source: std::io::Error },
     #[error("{} holds a run already; choose another --out, or --force to replace it", path.display())]
     Occupied { path: PathBuf },
     #[error("cannot write {}", path.display())]
-    Json {
-        path: PathBuf,
-        source: serde_json::Error,
-    },
+    Json { path: PathBuf, source: serde_json::Error },
     #[error("cannot write {}", path.display())]
-    Parquet {
-        path: PathBuf,
-        source: parquet::errors::ParquetError,
-    },
+    Parquet { path: PathBuf, source: parquet::errors::ParquetError },
     /// The user's table is at fault; `place` is `FILE` or `FILE:LINE`.
     #[error("{place}: {message}")]
     Table { place: String, message: String },

@@ -8,9 +8,7 @@ pub fn parse_f32(text: &str) -> Option<f32> {
         Some(rest) => (true, rest),
         None => (false, text.strip_prefix('+').unwrap_or(text)),
     };
-    let hexadecimal = magnitude
-        .strip_prefix("0x")
-        .or_else(|| magnitude.strip_prefix("0X"));
+    let hexadecimal = magnitude.strip_prefix("0x").or_else(|| magnitude.strip_prefix("0X"));
     let Some(digits) = hexadecimal else {
         return text.parse().ok();
     };
@@ -81,17 +79,10 @@ mod tests {
             ("0x1.000001p0", 1.0),
             ("0x1.000003p0", 1.0 + 2.0 * f32::EPSILON),
             ("0x1.00000100000000000000000001p0", 1.0 + f32::EPSILON),
-            (
-                "0x0.00000000000000000000000000000000000000001p0",
-                2f32.powi(-132) * 2f32.powi(-32),
-            ),
+            ("0x0.00000000000000000000000000000000000000001p0", 2f32.powi(-132) * 2f32.powi(-32)),
             ("0x100000000000000000000000p0", 2f32.powi(92)),
         ] {
-            assert_eq!(
-                parse_f32(text).map(f32::to_bits),
-                Some(expected.to_bits()),
-                "{text}"
-            );
+            assert_eq!(parse_f32(text).map(f32::to_bits), Some(expected.to_bits()), "{text}");
         }
         for text in ["0x", "0x.", "0x1.8p", "0xg", "1.5x", "", "one", "0x1p1.5"] {
             assert_eq!(parse_f32(text), None, "{text}");

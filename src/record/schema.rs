@@ -74,7 +74,8 @@ pub struct Family {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Output {
     pub name: String,
-    /// How its error is measured: `length` (relative), `unit_vector` (radians).
+    /// How its error is measured: `magnitude` and `scalar` (relative), `unit_vector` (radians), `irradiance` and
+    /// `vector_irradiance` (absolute, the full hemisphere being 1).
     pub quantity: String,
     pub tolerance: f64,
     pub headline: bool,

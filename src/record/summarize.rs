@@ -39,11 +39,7 @@ pub fn audit(problem: &dyn Problem, summary: &Summary) -> schema::Audit {
     let total = summary.configurations;
     let rate = |count| rate(count, total);
     let seen = |verdicts: &[u64]| {
-        Verdict::ALL
-            .into_iter()
-            .zip(verdicts.to_vec())
-            .filter(|(_, count)| *count > 0)
-            .collect::<Vec<_>>()
+        Verdict::ALL.into_iter().zip(verdicts.to_vec()).filter(|(_, count)| *count > 0).collect::<Vec<_>>()
     };
     schema::Audit {
         configurations: total,
@@ -62,10 +58,8 @@ pub fn audit(problem: &dyn Problem, summary: &Summary) -> schema::Audit {
             .landmarks
             .iter()
             .map(|bins| {
-                let filled = bins
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, bin)| bin.verdicts.iter().any(|count| *count > 0));
+                let filled =
+                    bins.iter().enumerate().filter(|(_, bin)| bin.verdicts.iter().any(|count| *count > 0));
                 filled
                     .map(|(position, bin)| schema::Bin {
                         bin: position,
@@ -99,39 +93,27 @@ fn distribution(histogram: &Histogram) -> schema::Distribution {
     let quantile = |q| Some(histogram.quantile(q)).filter(|value| value.is_finite());
     let counts = histogram.counts();
     let first = counts.iter().position(|count| *count > 0).unwrap_or(0);
-    let last = counts
-        .iter()
-        .rposition(|count| *count > 0)
-        .map_or(first, |last| last + 1);
+    let last = counts.iter().rposition(|count| *count > 0).map_or(first, |last| last + 1);
     schema::Distribution {
         p50: quantile(0.5),
         p90: quantile(0.9),
         p99: quantile(0.99),
         p999: quantile(0.999),
-        buckets: schema::Buckets {
-            first,
-            counts: counts[first..last].to_vec(),
-        },
+        buckets: schema::Buckets { first, counts: counts[first..last].to_vec() },
     }
 }
 
 fn rate(count: u64, total: u64) -> schema::Rate {
     let (low, high) = rate_interval(count, total);
-    schema::Rate {
-        count,
-        rate: if total == 0 {
-            0.0
-        } else {
-            count as f64 / total as f64
-        },
-        low,
-        high,
-    }
+    schema::Rate { count, rate: if total == 0 { 0.0 } else { count as f64 / total as f64 }, low, high }
 }
 
 fn quantity(quantity: Quantity) -> &'static str {
     match quantity {
-        Quantity::Length => "length",
+        Quantity::Magnitude => "magnitude",
+        Quantity::Scalar => "scalar",
+        Quantity::Irradiance => "irradiance",
+        Quantity::VectorIrradiance => "vector_irradiance",
         Quantity::UnitVector { .. } => "unit_vector",
     }
 }

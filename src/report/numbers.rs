@@ -38,12 +38,8 @@ mod tests {
 
     #[test]
     fn one_failure_in_a_million_still_shows() {
-        let rate = |count: u64, total: u64| Rate {
-            count,
-            rate: count as f64 / total as f64,
-            low: 0.0,
-            high: 1.0,
-        };
+        let rate =
+            |count: u64, total: u64| Rate { count, rate: count as f64 / total as f64, low: 0.0, high: 1.0 };
         assert_eq!(percent(&rate(0, 1_000_000)), "0");
         assert_eq!(percent(&rate(1, 1_000_000)), "1x");
         assert_eq!(percent(&rate(53, 100)), "53.0 %");

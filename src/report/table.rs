@@ -13,10 +13,7 @@ use crate::record::{Audit, Family, Rate, Result, Run, Variant};
 
 /// Devices, one a row.
 pub fn devices(devices: &[Facts], colour: bool) -> String {
-    let mut table = table(
-        &["", "name", "kind", "driver", "Vulkan", "memory", "uuid"],
-        colour,
-    );
+    let mut table = table(&["", "name", "kind", "driver", "Vulkan", "memory", "uuid"], colour);
     for facts in devices {
         table.add_row([
             Cell::new(facts.index),
@@ -36,11 +33,7 @@ pub fn run(run: &Run, colour: bool) -> String {
     let mut text = String::new();
     for family in &run.families {
         for (position, scenario) in family.scenarios.iter().enumerate() {
-            _ = writeln!(
-                text,
-                "\n{} . {}: {}",
-                family.name, scenario.name, scenario.summary
-            );
+            _ = writeln!(text, "\n{} . {}: {}", family.name, scenario.name, scenario.summary);
             text.push_str(&scenario_table(family, position, colour));
         }
         if family.scenarios.len() > 1 {
@@ -63,34 +56,21 @@ pub fn run(run: &Run, colour: bool) -> String {
 
 fn results<'a>(family: &'a Family, scenario: &'a str) -> impl Iterator<Item = (&'a Variant, &'a Result)> {
     family.variants.iter().filter_map(move |variant| {
-        variant
-            .results
-            .iter()
-            .find(|result| result.scenario == scenario)
-            .map(|result| (variant, result))
+        variant.results.iter().find(|result| result.scenario == scenario).map(|result| (variant, result))
     })
 }
 
 fn scenario_table(family: &Family, scenario: usize, colour: bool) -> String {
     let scenario = &family.scenarios[scenario];
-    let headline: Vec<usize> = family
-        .outputs
-        .iter()
-        .enumerate()
-        .filter(|(_, output)| output.headline)
-        .map(|(at, _)| at)
-        .collect();
+    let headline: Vec<usize> =
+        family.outputs.iter().enumerate().filter(|(_, output)| output.headline).map(|(at, _)| at).collect();
     let audited = results(family, &scenario.name).any(|(_, result)| result.audit.is_some());
     let timed = results(family, &scenario.name).any(|(_, result)| result.timing.is_some());
     let mut header = vec!["variant".to_owned()];
     if audited {
         header.extend(["failed", "non-finite", "ill-cond."].map(str::to_owned));
         for output in headline.iter().map(|at| &family.outputs[*at]) {
-            header.push(format!(
-                "{} off > {}",
-                output.name,
-                tolerance(output.tolerance, &output.quantity)
-            ));
+            header.push(format!("{} off > {}", output.name, tolerance(output.tolerance, &output.quantity)));
             header.extend(["p99", "worst", "worst ULP"].map(str::to_owned));
         }
     }
@@ -105,10 +85,7 @@ fn scenario_table(family: &Family, scenario: usize, colour: bool) -> String {
         }
         if let Some(timing) = &result.timing {
             row.push(Cell::new(format!("{:.2}", timing.ns.median)));
-            row.push(Cell::new(format!(
-                "{:.2}..{:.2}",
-                timing.ns.lower, timing.ns.upper
-            )));
+            row.push(Cell::new(format!("{:.2}..{:.2}", timing.ns.lower, timing.ns.upper)));
         }
         table.add_row(row);
     }
@@ -117,12 +94,7 @@ fn scenario_table(family: &Family, scenario: usize, colour: bool) -> String {
 }
 
 fn audit_cells(audit: &Audit, headline: &[usize]) -> Vec<Cell> {
-    let verdict = |verdict: Verdict| {
-        audit
-            .verdicts
-            .get(&verdict)
-            .map_or_else(|| "0".to_owned(), percent)
-    };
+    let verdict = |verdict: Verdict| audit.verdicts.get(&verdict).map_or_else(|| "0".to_owned(), percent);
     let mut cells = vec![
         graded(&audit.failed),
         Cell::new(verdict(Verdict::NonFinite)),
@@ -155,9 +127,7 @@ fn overview(family: &Family, colour: bool) -> String {
             row.push(audit.map_or_else(|| Cell::new(""), |audit| graded(&audit.failed)));
         }
         let timing = result(&family.scenarios[0].name).and_then(|result| result.timing.as_ref());
-        row.push(Cell::new(
-            timing.map_or_else(String::new, |timing| format!("{:.2}", timing.ns.median)),
-        ));
+        row.push(Cell::new(timing.map_or_else(String::new, |timing| format!("{:.2}", timing.ns.median))));
         table.add_row(row);
     }
     right_align(&mut table);
@@ -176,7 +146,7 @@ fn graded(rate: &Rate) -> Cell {
 
 fn tolerance(tolerance: f64, quantity: &str) -> String {
     match quantity {
-        "length" => format!("{} %", 100.0 * tolerance),
+        "magnitude" | "scalar" => format!("{} %", 100.0 * tolerance),
         "unit_vector" => format!("{} mrad", 1e3 * tolerance),
         _ => format!("{tolerance}"),
     }
@@ -186,15 +156,11 @@ fn legend(run: &Run) -> String {
     let mut text = String::new();
     let timings = || {
         let variants = run.families.iter().flat_map(|family| &family.variants);
-        variants
-            .flat_map(|variant| &variant.results)
-            .filter_map(|result| result.timing.as_ref())
+        variants.flat_map(|variant| &variant.results).filter_map(|result| result.timing.as_ref())
     };
     let audits = || {
         let variants = run.families.iter().flat_map(|family| &family.variants);
-        variants
-            .flat_map(|variant| &variant.results)
-            .filter_map(|result| result.audit.as_ref())
+        variants.flat_map(|variant| &variant.results).filter_map(|result| result.audit.as_ref())
     };
     text.push('\n');
     if let Some(audit) = audits().next() {
@@ -209,11 +175,7 @@ fn legend(run: &Run) -> String {
         );
     }
     if let Some(timing) = timings().next() {
-        _ = writeln!(
-            text,
-            "ns: median nanoseconds a configuration, streaming, {}.",
-            clock(timing)
-        );
+        _ = writeln!(text, "ns: median nanoseconds a configuration, streaming, {}.", clock(timing));
         if run.device.kind == "cpu" {
             text.push_str("A software device: times rank only within the same machine and run.\n");
         }
@@ -223,20 +185,15 @@ fn legend(run: &Run) -> String {
         .iter()
         .flat_map(|family| &family.scenarios)
         .filter_map(|scenario| scenario.oracle.as_ref());
-    let (escalated, uncertified) = oracle.fold((0, 0), |(e, u), oracle| {
-        (e + oracle.escalations, u + oracle.uncertified)
-    });
+    let (escalated, uncertified) =
+        oracle.fold((0, 0), |(e, u), oracle| (e + oracle.escalations, u + oracle.uncertified));
     if escalated + uncertified > 0 {
         _ = writeln!(
             text,
             "oracle: {escalated} configurations needed more than f64, {uncertified} stayed uncertified."
         );
     }
-    _ = writeln!(
-        text,
-        "device: {} ({} {})",
-        run.device.name, run.device.driver, run.device.driver_info
-    );
+    _ = writeln!(text, "device: {} ({} {})", run.device.name, run.device.driver, run.device.driver_info);
     text
 }
 
@@ -249,19 +206,13 @@ fn clock(timing: &Timing) -> &'static str {
 
 fn table<T: ToString>(header: &[T], colour: bool) -> Table {
     let mut table = Table::new();
-    table
-        .load_style(NOTHING)
-        .set_content_arrangement(ContentArrangement::Disabled);
+    table.load_style(NOTHING).set_content_arrangement(ContentArrangement::Disabled);
     if colour {
         table.enforce_styling();
     } else {
         table.force_no_tty();
     }
-    table.set_header(
-        header
-            .iter()
-            .map(|name| Cell::new(name.to_string()).add_attribute(Attribute::Bold)),
-    );
+    table.set_header(header.iter().map(|name| Cell::new(name.to_string()).add_attribute(Attribute::Bold)));
     table
 }
 

@@ -32,13 +32,7 @@ impl Stream {
         let mut bytes = [0u8; 4 * WORDS];
         for row in 0..count {
             generator.fill_bytes(&mut bytes);
-            visit(
-                row,
-                &mut Draw {
-                    bytes: &bytes,
-                    used: 0,
-                },
-            );
+            visit(row, &mut Draw { bytes: &bytes, used: 0 });
         }
     }
 }
@@ -163,9 +157,6 @@ mod tests {
             decades[draw.log_uniform(1.0, 1e6).log10() as usize] += 1;
         });
         // Binomial with n = 60 000, p = 1/6: sigma = 91; five sigma either side.
-        assert!(
-            decades.iter().all(|count| count.abs_diff(10_000) < 456),
-            "{decades:?}"
-        );
+        assert!(decades.iter().all(|count| count.abs_diff(10_000) < 456), "{decades:?}");
     }
 }

@@ -66,9 +66,7 @@ void main() {{
         let shader = gl::glslang_shader_create(&raw const input);
         let parsed = gl::glslang_shader_preprocess(shader, &raw const input) != 0
             && gl::glslang_shader_parse(shader, &raw const input) != 0;
-        let log = CStr::from_ptr(gl::glslang_shader_get_info_log(shader))
-            .to_string_lossy()
-            .into_owned();
+        let log = CStr::from_ptr(gl::glslang_shader_get_info_log(shader)).to_string_lossy().into_owned();
         assert!(parsed, "{body}: {log}");
         let program = gl::glslang_program_create();
         gl::glslang_program_add_shader(program, shader);

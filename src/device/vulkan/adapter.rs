@@ -45,11 +45,8 @@ impl Adapter {
         // SAFETY: as above.
         let offered = unsafe { instance.enumerate_device_extension_properties(physical) }
             .named("vkEnumerateDeviceExtensionProperties")?;
-        let offers = |name: &CStr| {
-            offered
-                .iter()
-                .any(|extension| extension.extension_name_as_c_str() == Ok(name))
-        };
+        let offers =
+            |name: &CStr| offered.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name));
 
         let mut extensions = Vec::new();
         // What later versions made core is enabled as an extension on earlier ones.
@@ -164,10 +161,7 @@ fn compute_family(families: &[vk::QueueFamilyProperties]) -> Option<(u32, u32)> 
         if !family.queue_flags.contains(vk::QueueFlags::COMPUTE) || family.queue_count == 0 {
             continue;
         }
-        let worth = (
-            family.timestamp_valid_bits,
-            !family.queue_flags.contains(vk::QueueFlags::GRAPHICS),
-        );
+        let worth = (family.timestamp_valid_bits, !family.queue_flags.contains(vk::QueueFlags::GRAPHICS));
         if best.is_none_or(|(most, _)| worth > most) {
             best = Some((worth, index));
         }
@@ -192,10 +186,7 @@ fn unified(kind: vk::PhysicalDeviceType, memory: &vk::PhysicalDeviceMemoryProper
             .all(|heap| heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL)),
     };
     let offers = |flags: P| {
-        memory
-            .memory_types_as_slice()
-            .iter()
-            .any(|memory_type| memory_type.property_flags.contains(flags))
+        memory.memory_types_as_slice().iter().any(|memory_type| memory_type.property_flags.contains(flags))
     };
     let shared = P::HOST_VISIBLE | P::HOST_COHERENT;
     let cached = shared | P::HOST_CACHED;

@@ -15,10 +15,7 @@ pub(super) trait Named<T> {
 impl<T> Named<T> for Result<T, vk::Result> {
     fn named(self, call: &'static str) -> Result<T, Error> {
         // Debug, not Display: the code's own name (ERROR_DEVICE_LOST) is what people search for.
-        self.map_err(|result| Error::Call {
-            call,
-            result: format!("{result:?}"),
-        })
+        self.map_err(|result| Error::Call { call, result: format!("{result:?}") })
     }
 }
 

@@ -43,11 +43,7 @@ impl Abilities {
             return Err("its words are no SPIR-V module");
         };
         if version > self.spirv {
-            return Ok(Some(format!(
-                "SPIR-V {}.{}",
-                version >> 16 & 0xff,
-                version >> 8 & 0xff
-            )));
+            return Ok(Some(format!("SPIR-V {}.{}", version >> 16 & 0xff, version >> 8 & 0xff)));
         }
         let mut rest = body;
         while let Some(&first) = rest.first() {
@@ -136,11 +132,8 @@ impl Abilities {
 
 /// A SPIR-V literal string: UTF-8 in little-endian words, ended by a zero byte.
 fn literal(words: &[u32]) -> String {
-    let bytes: Vec<u8> = words
-        .iter()
-        .flat_map(|word| word.to_le_bytes())
-        .take_while(|&byte| byte != 0)
-        .collect();
+    let bytes: Vec<u8> =
+        words.iter().flat_map(|word| word.to_le_bytes()).take_while(|&byte| byte != 0).collect();
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
@@ -161,10 +154,7 @@ mod tests {
     const MODE: u32 = Op::ExecutionMode as u32;
 
     fn plain() -> Abilities {
-        Abilities {
-            spirv: 0x0001_0300,
-            ..Abilities::default()
-        }
+        Abilities { spirv: 0x0001_0300, ..Abilities::default() }
     }
 
     #[test]
@@ -175,70 +165,26 @@ mod tests {
 
     #[test]
     fn a_capability_the_device_lacks_is_named() {
-        let spirv = module(
-            0x0001_0000,
-            &[&[CAPABILITY, 1], &[CAPABILITY, Capability::Float64 as u32]],
-        );
-        assert_eq!(
-            plain().missing(&spirv),
-            Ok(Some("the SPIR-V capability Float64".to_owned()))
-        );
-        assert_eq!(
-            Abilities {
-                float64: true,
-                ..plain()
-            }
-            .missing(&spirv),
-            Ok(None)
-        );
+        let spirv = module(0x0001_0000, &[&[CAPABILITY, 1], &[CAPABILITY, Capability::Float64 as u32]]);
+        assert_eq!(plain().missing(&spirv), Ok(Some("the SPIR-V capability Float64".to_owned())));
+        assert_eq!(Abilities { float64: true, ..plain() }.missing(&spirv), Ok(None));
         let unknown = module(0x0001_0000, &[&[CAPABILITY, 0xdead]]);
-        assert_eq!(
-            plain().missing(&unknown),
-            Ok(Some("the SPIR-V capability 57005".to_owned()))
-        );
+        assert_eq!(plain().missing(&unknown), Ok(Some("the SPIR-V capability 57005".to_owned())));
     }
 
     #[test]
     fn float_modes_are_asked_for_by_width() {
-        let spirv = module(
-            0x0001_0000,
-            &[&[MODE, 1, ExecutionMode::DenormPreserve as u32, 32]],
-        );
-        let modes = FloatModes {
-            denorm_preserve: [true, false, true],
-            ..FloatModes::default()
-        };
-        let missing = Abilities {
-            float_modes: modes,
-            ..plain()
-        }
-        .missing(&spirv);
-        assert_eq!(
-            missing,
-            Ok(Some(
-                "the execution mode DenormPreserve for 32-bit floats".to_owned()
-            ))
-        );
-        let modes = FloatModes {
-            denorm_preserve: [false, true, false],
-            ..FloatModes::default()
-        };
-        assert_eq!(
-            Abilities {
-                float_modes: modes,
-                ..plain()
-            }
-            .missing(&spirv),
-            Ok(None)
-        );
+        let spirv = module(0x0001_0000, &[&[MODE, 1, ExecutionMode::DenormPreserve as u32, 32]]);
+        let modes = FloatModes { denorm_preserve: [true, false, true], ..FloatModes::default() };
+        let missing = Abilities { float_modes: modes, ..plain() }.missing(&spirv);
+        assert_eq!(missing, Ok(Some("the execution mode DenormPreserve for 32-bit floats".to_owned())));
+        let modes = FloatModes { denorm_preserve: [false, true, false], ..FloatModes::default() };
+        assert_eq!(Abilities { float_modes: modes, ..plain() }.missing(&spirv), Ok(None));
     }
 
     #[test]
     fn a_newer_module_and_a_broken_one_are_told_apart() {
-        assert_eq!(
-            plain().missing(&module(0x0001_0600, &[])),
-            Ok(Some("SPIR-V 1.6".to_owned()))
-        );
+        assert_eq!(plain().missing(&module(0x0001_0600, &[])), Ok(Some("SPIR-V 1.6".to_owned())));
         assert!(plain().missing(&[]).is_err());
         assert!(plain().missing(&[1, 2, 3, 4, 5, 6]).is_err());
         let mut cut = module(0x0001_0000, &[&[CAPABILITY, 1]]);

@@ -52,19 +52,10 @@ impl Inputs {
                 engine.max_rows(columns)
             )));
         }
-        let mut uploaded = Uploaded {
-            rows: count as u32,
-            columns,
-            copy: Mutex::new(None),
-            lease: None,
-        };
+        let mut uploaded = Uploaded { rows: count as u32, columns, copy: Mutex::new(None), lease: None };
         if count > 0 {
             let bytes = size_of_val(rows) as u64;
-            let role = if engine.staging {
-                Role::Upload
-            } else {
-                Role::SharedInputs
-            };
+            let role = if engine.staging { Role::Upload } else { Role::SharedInputs };
             let mut host = engine.pool.lease(role, bytes)?;
             // SAFETY: the lease is new, so the device does not use it.
             transpose(rows, columns, &mut unsafe { host.write() }[..rows.len()]);
@@ -76,17 +67,12 @@ impl Inputs {
                 uploaded.lease = Some(Arc::new(host));
             }
         }
-        Ok(Self {
-            uploaded: Arc::new(uploaded),
-        })
+        Ok(Self { uploaded: Arc::new(uploaded) })
     }
 
     /// Whether they are in this device's memory; no rows are in anyone's.
     pub(super) fn is_of(&self, engine: &Engine) -> bool {
-        self.uploaded
-            .lease
-            .as_ref()
-            .is_none_or(|lease| lease.is_of(&engine.pool))
+        self.uploaded.lease.as_ref().is_none_or(|lease| lease.is_of(&engine.pool))
     }
 
     pub(super) fn rows(&self) -> u32 {
@@ -100,10 +86,7 @@ impl Inputs {
     /// The columns as the kernel reads them; `None` for no rows.
     pub(super) fn extent(&self) -> Option<Extent> {
         let bytes = u64::from(self.rows()) * self.columns() as u64 * 4;
-        self.uploaded.lease.as_ref().map(|lease| Extent {
-            buffer: lease.handle(),
-            bytes,
-        })
+        self.uploaded.lease.as_ref().map(|lease| Extent { buffer: lease.handle(), bytes })
     }
 
     /// Frees what the copy into the columns needed. Called when later work on the queue has finished: so has
@@ -120,20 +103,8 @@ fn copy_to_device(
     bytes: u64,
 ) -> Result<(Flight<Copying>, Arc<Lease>), Error> {
     let device = Arc::new(engine.pool.lease(Role::DeviceColumns, bytes)?);
-    let (from, to) = (
-        Extent {
-            buffer: host.handle(),
-            bytes,
-        },
-        device.handle(),
-    );
-    let mut flight = Flight::new(
-        engine,
-        Copying {
-            _from: host,
-            _to: Arc::clone(&device),
-        },
-    )?;
+    let (from, to) = (Extent { buffer: host.handle(), bytes }, device.handle());
+    let mut flight = Flight::new(engine, Copying { _from: host, _to: Arc::clone(&device) })?;
     let commands = flight.lane().record_copy(from, to)?;
     flight.submit(commands, true)?;
     Ok((flight, device))

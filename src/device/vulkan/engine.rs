@@ -86,9 +86,8 @@ impl Engine {
         let constants = [vk::PushConstantRange::default()
             .stage_flags(vk::ShaderStageFlags::COMPUTE)
             .size(size_of::<Range>() as u32)];
-        let create = vk::PipelineLayoutCreateInfo::default()
-            .set_layouts(&layouts)
-            .push_constant_ranges(&constants);
+        let create =
+            vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts).push_constant_ranges(&constants);
         // SAFETY: as above.
         let pipeline_layout = unsafe { device.create_pipeline_layout(&create, None) };
         let pipeline_layout = Owned::new(&logical, pipeline_layout.named("vkCreatePipelineLayout")?);
@@ -116,11 +115,7 @@ impl Engine {
                 bytes: u64::from(adapter.limits.max_storage_buffer_range).min(adapter.max_allocation),
             },
             stopwatch: Stopwatch {
-                clock: if timestamps {
-                    Clock::DeviceTimestamps
-                } else {
-                    Clock::HostFence
-                },
+                clock: if timestamps { Clock::DeviceTimestamps } else { Clock::HostFence },
                 mask: u64::MAX >> (64 - bits.clamp(1, 64)),
                 // A float in the interface, and rarely whole: 83.3 ns truncated to 83 is 0.4 % off.
                 period_ns: f64::from(adapter.limits.timestamp_period),
@@ -194,9 +189,6 @@ mod tests {
         assert_eq!(stopwatch.ns(10, 1_010), 1000.0 * f64::from(83.333_336_f32));
         assert_eq!(stopwatch.ns((1 << 36) - 1, 9), 10.0 * f64::from(83.333_336_f32));
         // Bits above the valid ones are noise.
-        assert_eq!(
-            stopwatch.ns(0xdead << 40, 0xbeef << 40 | 5),
-            5.0 * f64::from(83.333_336_f32)
-        );
+        assert_eq!(stopwatch.ns(0xdead << 40, 0xbeef << 40 | 5), 5.0 * f64::from(83.333_336_f32));
     }
 }

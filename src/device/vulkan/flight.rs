@@ -55,9 +55,7 @@ impl<H> Flight<H> {
     }
 
     pub(super) fn lane(&mut self) -> &mut Lane {
-        self.lane
-            .as_mut()
-            .expect("a flight has its lane until it is dropped")
+        self.lane.as_mut().expect("a flight has its lane until it is dropped")
     }
 
     /// Tells how long the device is going to be at it, so that nobody takes a long queue for a hung one.
@@ -94,11 +92,7 @@ impl<H> Flight<H> {
         commands: &[vk::CommandBuffer],
         last: bool,
     ) -> Result<(), Error> {
-        let fence = if last {
-            self.lane().fence.get()
-        } else {
-            vk::Fence::null()
-        };
+        let fence = if last { self.lane().fence.get() } else { vk::Fence::null() };
         let submit = [vk::SubmitInfo::default().command_buffers(commands)];
         // SAFETY: the caller has locked the queue; the commands are recorded in this flight's lane, which
         // stays, as does all they use, until the fence; the fence is unsignalled, for `finish` resets it.
@@ -146,9 +140,7 @@ impl<H> Flight<H> {
     /// What was held, once [`finish`](Self::finish) has succeeded.
     pub(super) fn into_held(mut self) -> H {
         debug_assert!(self.state == State::Idle);
-        self.held
-            .take()
-            .expect("a flight has what it holds until it is dropped")
+        self.held.take().expect("a flight has what it holds until it is dropped")
     }
 }
 
@@ -164,9 +156,7 @@ impl<H> Drop for Flight<H> {
         }
         // Its error has nowhere to go, but the state it leaves says what may be freed.
         let _ = self.finish();
-        self.engine
-            .backlog_ns
-            .fetch_sub(self.expected_ns, Ordering::Relaxed);
+        self.engine.backlog_ns.fetch_sub(self.expected_ns, Ordering::Relaxed);
         match (self.state, self.lane.take()) {
             (State::Idle, Some(lane)) => self.engine.recycle(lane),
             // Freed under a device that may yet write to it, memory would be somebody else's by then: it is

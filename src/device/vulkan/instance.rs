@@ -39,17 +39,14 @@ impl Instance {
     /// layer, [`Error::NoDevice`] where the loader finds no driver at all.
     pub fn open(validation: bool) -> Result<Self, Error> {
         // SAFETY: the system's Vulkan loader, whose initialisers are its own affair.
-        let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader {
-            reason: error.to_string(),
-        })?;
+        let entry =
+            unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader { reason: error.to_string() })?;
         // SAFETY: `entry` is a loaded Vulkan library.
         let loader = unsafe { entry.try_enumerate_instance_version() }
             .named("vkEnumerateInstanceVersion")?
             .unwrap_or(vk::API_VERSION_1_0);
         if loader < vk::API_VERSION_1_1 {
-            return Err(Error::NoLoader {
-                reason: "it is older than Vulkan 1.1".to_owned(),
-            });
+            return Err(Error::NoLoader { reason: "it is older than Vulkan 1.1".to_owned() });
         }
         let api = loader.min(vk::API_VERSION_1_3);
         if validation && !has_validation(&entry)? {
@@ -73,9 +70,7 @@ impl Instance {
             extensions.push(ext::debug_utils::NAME.as_ptr());
             layers.push(VALIDATION_LAYER.as_ptr());
         }
-        let application = vk::ApplicationInfo::default()
-            .application_name(c"rootq")
-            .api_version(api);
+        let application = vk::ApplicationInfo::default().application_name(c"rootq").api_version(api);
         let messages = validation.then(Arc::<Messages>::default);
         // Chained too, so that creation and destruction of the instance are watched as well.
         let mut chained = messages.as_deref().map(Messages::messenger);
@@ -94,13 +89,7 @@ impl Instance {
             Err(vk::Result::ERROR_INCOMPATIBLE_DRIVER) => return Err(Error::NoDevice),
             other => other.named("vkCreateInstance")?,
         };
-        let mut loaded = Loaded {
-            instance,
-            api,
-            messenger: None,
-            messages,
-            _entry: entry,
-        };
+        let mut loaded = Loaded { instance, api, messenger: None, messages, _entry: entry };
         if let Some(messages) = &loaded.messages {
             let debug = ext::debug_utils::Instance::new(&loaded._entry, &loaded.instance);
             // SAFETY: the extension is enabled; `Loaded` destroys the messenger before it drops the messages.
@@ -108,20 +97,14 @@ impl Instance {
                 .named("vkCreateDebugUtilsMessengerEXT")?;
             loaded.messenger = Some((debug, messenger));
         }
-        Ok(Self {
-            loaded: Arc::new(loaded),
-        })
+        Ok(Self { loaded: Arc::new(loaded) })
     }
 
     /// Every usable device, in the loader's order; indices count these.
     ///
     /// Left out, since no kernel could run there: devices below Vulkan 1.1 or without a compute queue.
     pub fn devices(&self) -> Result<Vec<Facts>, Error> {
-        Ok(self
-            .adapters()?
-            .into_iter()
-            .map(|adapter| adapter.facts)
-            .collect())
+        Ok(self.adapters()?.into_iter().map(|adapter| adapter.facts).collect())
     }
 
     /// The index of the device that `selector` means: an index, a UUID or a part of a name; `None`: the
@@ -132,11 +115,7 @@ impl Instance {
 
     /// What the validation layer has said so far; empty without it.
     pub fn validation_messages(&self) -> Vec<String> {
-        self.loaded
-            .messages
-            .as_deref()
-            .map(Messages::all)
-            .unwrap_or_default()
+        self.loaded.messages.as_deref().map(Messages::all).unwrap_or_default()
     }
 
     /// How many others keep the instance alive: clones, and devices that are open or kept so by a program or
@@ -190,10 +169,7 @@ fn has_validation(entry: &ash::Entry) -> Result<bool, Error> {
     // SAFETY: `entry` is a loaded Vulkan library.
     let layers =
         unsafe { entry.enumerate_instance_layer_properties() }.named("vkEnumerateInstanceLayerProperties")?;
-    if !layers
-        .iter()
-        .any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER))
-    {
+    if !layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER)) {
         return Ok(false);
     }
     let mut offered = Vec::new();
@@ -204,7 +180,5 @@ fn has_validation(entry: &ash::Entry) -> Result<bool, Error> {
                 .named("vkEnumerateInstanceExtensionProperties")?,
         );
     }
-    Ok(offered
-        .iter()
-        .any(|extension| extension.extension_name_as_c_str() == Ok(ext::debug_utils::NAME)))
+    Ok(offered.iter().any(|extension| extension.extension_name_as_c_str() == Ok(ext::debug_utils::NAME)))
 }

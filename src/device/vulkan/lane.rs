@@ -45,20 +45,16 @@ impl Lane {
         // SAFETY: a live device and filled-in descriptions, here and below.
         let commands = unsafe { device.create_command_pool(&create, None) }.named("vkCreateCommandPool")?;
         let commands = Owned::new(logical, commands);
-        let sizes = [vk::DescriptorPoolSize::default()
-            .ty(vk::DescriptorType::STORAGE_BUFFER)
-            .descriptor_count(2)];
-        let create = vk::DescriptorPoolCreateInfo::default()
-            .max_sets(1)
-            .pool_sizes(&sizes);
+        let sizes =
+            [vk::DescriptorPoolSize::default().ty(vk::DescriptorType::STORAGE_BUFFER).descriptor_count(2)];
+        let create = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
         // SAFETY: as above.
         let descriptors =
             unsafe { device.create_descriptor_pool(&create, None) }.named("vkCreateDescriptorPool")?;
         let descriptors = Owned::new(logical, descriptors);
         let layouts = [layout];
-        let allocate = vk::DescriptorSetAllocateInfo::default()
-            .descriptor_pool(descriptors.get())
-            .set_layouts(&layouts);
+        let allocate =
+            vk::DescriptorSetAllocateInfo::default().descriptor_pool(descriptors.get()).set_layouts(&layouts);
         // SAFETY: the pool is new and has room for this one set, which goes with it.
         let sets = unsafe { device.allocate_descriptor_sets(&allocate) }.named("vkAllocateDescriptorSets")?;
         // SAFETY: as above.
@@ -81,9 +77,7 @@ impl Lane {
         self.recorded = 0;
         // SAFETY: lanes are reset only between submissions.
         unsafe {
-            self.logical
-                .device
-                .reset_command_pool(self.commands.get(), vk::CommandPoolResetFlags::empty())
+            self.logical.device.reset_command_pool(self.commands.get(), vk::CommandPoolResetFlags::empty())
         }
         .named("vkResetCommandPool")
     }
@@ -91,10 +85,7 @@ impl Lane {
     /// Points the kernel's two bindings at their columns.
     pub(super) fn bind(&self, inputs: Extent, outputs: Extent) {
         let info = |extent: Extent| {
-            [vk::DescriptorBufferInfo::default()
-                .buffer(extent.buffer)
-                .offset(0)
-                .range(extent.bytes)]
+            [vk::DescriptorBufferInfo::default().buffer(extent.buffer).offset(0).range(extent.bytes)]
         };
         let (inputs, outputs) = (info(inputs), info(outputs));
         let write = |binding| {
@@ -103,10 +94,8 @@ impl Lane {
                 .dst_binding(binding)
                 .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
         };
-        let writes = [
-            write(INPUTS_BINDING).buffer_info(&inputs),
-            write(OUTPUTS_BINDING).buffer_info(&outputs),
-        ];
+        let writes =
+            [write(INPUTS_BINDING).buffer_info(&inputs), write(OUTPUTS_BINDING).buffer_info(&outputs)];
         // SAFETY: buffers and set are alive, and no submission is using the set.
         unsafe { self.logical.device.update_descriptor_sets(&writes, &[]) }
     }
@@ -118,9 +107,8 @@ impl Lane {
             return Ok(());
         }
         let room = wanted.next_power_of_two().max(64);
-        let create = vk::QueryPoolCreateInfo::default()
-            .query_type(vk::QueryType::TIMESTAMP)
-            .query_count(room);
+        let create =
+            vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(room);
         // SAFETY: a live device and a filled-in description.
         let pool =
             unsafe { self.logical.device.create_query_pool(&create, None) }.named("vkCreateQueryPool")?;
@@ -204,9 +192,7 @@ impl Lane {
         // submission.
         unsafe {
             self.barrier(commands);
-            self.logical
-                .device
-                .cmd_copy_buffer(commands, from.buffer, to, &region);
+            self.logical.device.cmd_copy_buffer(commands, from.buffer, to, &region);
             self.barrier(commands);
         }
         self.end(commands)
@@ -218,9 +204,7 @@ impl Lane {
         // SAFETY: as in `record_copy`; the length is a multiple of 4, being columns of f32.
         unsafe {
             self.barrier(commands);
-            self.logical
-                .device
-                .cmd_fill_buffer(commands, extent.buffer, 0, extent.bytes, word);
+            self.logical.device.cmd_fill_buffer(commands, extent.buffer, 0, extent.bytes, word);
             self.barrier(commands);
         }
         self.end(commands)

@@ -52,22 +52,14 @@ impl Logical {
         // the call.
         let device = unsafe { loaded.instance.create_device(adapter.physical, &create, None) }
             .named("vkCreateDevice")?;
-        let names = loaded
-            .validating()
-            .then(|| ext::debug_utils::Device::new(&loaded.instance, &device));
-        Ok(Arc::new(Self {
-            device,
-            names,
-            _loaded: Arc::clone(loaded),
-        }))
+        let names = loaded.validating().then(|| ext::debug_utils::Device::new(&loaded.instance, &device));
+        Ok(Arc::new(Self { device, names, _loaded: Arc::clone(loaded) }))
     }
 
     /// Names an object for validation messages; nothing without validation.
     pub(super) fn name(&self, handle: impl vk::Handle, name: &str) {
         if let (Some(names), Ok(name)) = (&self.names, CString::new(name)) {
-            let info = vk::DebugUtilsObjectNameInfoEXT::default()
-                .object_handle(handle)
-                .object_name(&name);
+            let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
             // A name that fails is only a message less readable.
             // SAFETY: the handle is of this device and alive, as every caller has just made it.
             let _ = unsafe { names.set_debug_utils_object_name(&info) };

@@ -76,10 +76,7 @@ impl Memory {
             allocation_sizes: gpu_allocator::AllocationSizes::default(),
         })
         .map_err(|error| Error::Memory(error.to_string()))?;
-        Ok(Arc::new(Self {
-            allocator: Mutex::new(allocator),
-            logical: Arc::clone(logical),
-        }))
+        Ok(Arc::new(Self { allocator: Mutex::new(allocator), logical: Arc::clone(logical) }))
     }
 }
 
@@ -97,11 +94,7 @@ impl Buffer {
         let create = vk::BufferCreateInfo::default().size(bytes).usage(role.usage());
         // SAFETY: a live device and a filled-in description.
         let handle = unsafe { device.create_buffer(&create, None) }.named("vkCreateBuffer")?;
-        let mut buffer = Self {
-            handle,
-            allocation: None,
-            memory: Arc::clone(memory),
-        };
+        let mut buffer = Self { handle, allocation: None, memory: Arc::clone(memory) };
         // SAFETY: `handle` is this device's.
         let mut requirements = unsafe { device.get_buffer_memory_requirements(handle) };
         // Columns are read as f32; a cache line keeps neighbours in one block from sharing one.
@@ -136,11 +129,7 @@ impl Buffer {
     ///
     /// The device does not write the buffer while the slice lives.
     pub(super) unsafe fn read(&self) -> &[f32] {
-        let bytes = self
-            .allocation
-            .as_ref()
-            .and_then(Allocation::mapped_slice)
-            .unwrap_or(&[]);
+        let bytes = self.allocation.as_ref().and_then(Allocation::mapped_slice).unwrap_or(&[]);
         // SAFETY: any bits are an f32. The memory is 64-byte aligned, so nothing is cut off in front.
         unsafe { bytes.align_to::<f32>().1 }
     }
@@ -151,11 +140,7 @@ impl Buffer {
     ///
     /// The device does not use the buffer while the slice lives.
     pub(super) unsafe fn write(&mut self) -> &mut [f32] {
-        let bytes = self
-            .allocation
-            .as_mut()
-            .and_then(Allocation::mapped_slice_mut)
-            .unwrap_or(&mut []);
+        let bytes = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut).unwrap_or(&mut []);
         // SAFETY: as in `read`; exclusive through `&mut self`.
         unsafe { bytes.align_to_mut::<f32>().1 }
     }

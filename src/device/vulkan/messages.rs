@@ -42,14 +42,8 @@ unsafe extern "system" fn collect(
     // SAFETY: the layer passes valid callback data, whose text, if any, is a C string; `user` is the
     // `Messages` that made the messenger, which outlives it (see `messenger`), and is only ever shared.
     let (message, messages) = unsafe {
-        let text = data
-            .as_ref()
-            .map(|data| data.p_message)
-            .filter(|text| !text.is_null());
-        (
-            text.map(|text| CStr::from_ptr(text)),
-            user.cast::<Messages>().as_ref(),
-        )
+        let text = data.as_ref().map(|data| data.p_message).filter(|text| !text.is_null());
+        (text.map(|text| CStr::from_ptr(text)), user.cast::<Messages>().as_ref())
     };
     if let (Some(message), Some(messages)) = (message, messages) {
         lock(&messages.0).push(message.to_string_lossy().into_owned());

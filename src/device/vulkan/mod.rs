@@ -14,10 +14,7 @@
 //! so: the queue is behind a mutex; a lane's command pool, descriptor pool, query pool and fence belong to
 //! one submission at a time, which owns the lane by value; memory is allocated and freed behind a mutex;
 //! pipelines, layouts and buffers do not change after their creation.
-#![allow(
-    unsafe_code,
-    reason = "Vulkan is a C interface; this module is its only safe face"
-)]
+#![allow(unsafe_code, reason = "Vulkan is a C interface; this module is its only safe face")]
 
 mod adapter;
 mod call;

@@ -51,10 +51,7 @@ pub(super) struct Owned<H: Handle> {
 impl<H: Handle> Owned<H> {
     /// Takes over a handle that `logical` has just made.
     pub(super) fn new(logical: &Arc<Logical>, handle: H) -> Self {
-        Self {
-            handle,
-            logical: Arc::clone(logical),
-        }
+        Self { handle, logical: Arc::clone(logical) }
     }
 
     pub(super) fn is_of(&self, logical: &Arc<Logical>) -> bool {

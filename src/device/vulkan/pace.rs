@@ -22,9 +22,7 @@ pub(super) struct Pace {
 
 impl Pace {
     pub(super) fn new() -> Self {
-        Self {
-            ns_per_row: AtomicU64::new(f64::NAN.to_bits()),
-        }
+        Self { ns_per_row: AtomicU64::new(f64::NAN.to_bits()) }
     }
 
     pub(super) fn estimate(&self) -> Option<f64> {
@@ -39,9 +37,7 @@ impl Pace {
             return;
         }
         let measured = ns / f64::from(rows);
-        let next = self
-            .estimate()
-            .map_or(measured, |before| measured.max(before / 4.0));
+        let next = self.estimate().map_or(measured, |before| measured.max(before / 4.0));
         // Two threads may each take in theirs and one be lost: both are measurements of the same thing.
         self.ns_per_row.store(next.to_bits(), Ordering::Relaxed);
     }
@@ -63,10 +59,7 @@ impl Pace {
             return Vec::new();
         }
         let dispatches = remaining.div_ceil(self.batch(limit));
-        let size = remaining
-            .div_ceil(dispatches)
-            .next_multiple_of(LOCAL_SIZE)
-            .min(limit);
+        let size = remaining.div_ceil(dispatches).next_multiple_of(LOCAL_SIZE).min(limit);
         let mut parts = Vec::new();
         let mut at = first;
         while at < rows {
@@ -103,13 +96,7 @@ mod tests {
         pace.learn(1e9, 1_000_000);
         let parts = pace.split(17_408, 1 << 20, 1 << 22);
         covered(&parts, 17_408, 1 << 20);
-        assert!(
-            parts
-                .iter()
-                .rev()
-                .skip(1)
-                .all(|(_, count)| count % LOCAL_SIZE == 0)
-        );
+        assert!(parts.iter().rev().skip(1).all(|(_, count)| count % LOCAL_SIZE == 0));
     }
 
     #[test]

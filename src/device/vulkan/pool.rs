@@ -59,9 +59,7 @@ impl Pool {
     pub(super) fn lease(self: &Arc<Self>, role: Role, bytes: u64) -> Result<Lease, Error> {
         let bytes = size_class(bytes);
         let mut idle = lock(&self.idle);
-        let found = idle
-            .iter()
-            .rposition(|idle| idle.role == role && idle.bytes == bytes);
+        let found = idle.iter().rposition(|idle| idle.role == role && idle.bytes == bytes);
         let buffer = found.map(|index| idle.swap_remove(index).buffer);
         drop(idle);
         let buffer = match buffer {
@@ -71,12 +69,7 @@ impl Pool {
             }
             None => self.create(role, bytes)?,
         };
-        Ok(Lease {
-            buffer: Some(buffer),
-            role,
-            bytes,
-            pool: Arc::clone(self),
-        })
+        Ok(Lease { buffer: Some(buffer), role, bytes, pool: Arc::clone(self) })
     }
 
     fn create(&self, role: Role, bytes: u64) -> Result<Buffer, Error> {
@@ -126,28 +119,20 @@ impl Deref for Lease {
     type Target = Buffer;
 
     fn deref(&self) -> &Buffer {
-        self.buffer
-            .as_ref()
-            .expect("a lease has its buffer until it is dropped")
+        self.buffer.as_ref().expect("a lease has its buffer until it is dropped")
     }
 }
 
 impl DerefMut for Lease {
     fn deref_mut(&mut self) -> &mut Buffer {
-        self.buffer
-            .as_mut()
-            .expect("a lease has its buffer until it is dropped")
+        self.buffer.as_mut().expect("a lease has its buffer until it is dropped")
     }
 }
 
 impl Drop for Lease {
     fn drop(&mut self) {
         if let Some(buffer) = self.buffer.take() {
-            self.pool.give_back(Idle {
-                role: self.role,
-                bytes: self.bytes,
-                buffer,
-            });
+            self.pool.give_back(Idle { role: self.role, bytes: self.bytes, buffer });
         }
     }
 }
@@ -158,29 +143,11 @@ mod tests {
 
     #[test]
     fn size_classes_hold_and_waste_little() {
-        for bytes in [
-            0,
-            1,
-            4,
-            4095,
-            4096,
-            4097,
-            65_537,
-            1_000_003 * 24,
-            (1 << 20) * 32,
-            (1 << 25) + 1,
-        ] {
+        for bytes in [0, 1, 4, 4095, 4096, 4097, 65_537, 1_000_003 * 24, (1 << 20) * 32, (1 << 25) + 1] {
             let class = size_class(bytes);
-            assert!(
-                class >= bytes && class <= bytes + bytes / 8 + 4096,
-                "{bytes} -> {class}"
-            );
+            assert!(class >= bytes && class <= bytes + bytes / 8 + 4096, "{bytes} -> {class}");
             assert_eq!(size_class(class), class, "a class is its own class");
         }
-        assert_eq!(
-            size_class((1 << 20) * 24),
-            (1 << 20) * 24,
-            "a full chunk of six columns wastes nothing"
-        );
+        assert_eq!(size_class((1 << 20) * 24), (1 << 20) * 24, "a full chunk of six columns wastes nothing");
     }
 }

@@ -30,18 +30,13 @@ pub(super) struct Compiled {
 
 impl Program {
     pub(super) fn new(engine: &Engine, kernel: &Kernel) -> Result<Self, Error> {
-        let invalid = |reason: &str| Error::InvalidKernel {
-            kernel: kernel.id.clone(),
-            reason: reason.to_owned(),
-        };
+        let invalid =
+            |reason: &str| Error::InvalidKernel { kernel: kernel.id.clone(), reason: reason.to_owned() };
         if kernel.inputs == 0 || kernel.outputs == 0 {
             return Err(invalid("it needs an input and an output column"));
         }
         if let Some(what) = engine.abilities().missing(&kernel.spirv).map_err(invalid)? {
-            return Err(Error::NotSupported {
-                kernel: kernel.id.clone(),
-                what,
-            });
+            return Err(Error::NotSupported { kernel: kernel.id.clone(), what });
         }
         let logical = engine.logical();
         let device = &logical.device;
@@ -54,9 +49,7 @@ impl Program {
             .stage(vk::ShaderStageFlags::COMPUTE)
             .module(module.get())
             .name(c"main");
-        let create = vk::ComputePipelineCreateInfo::default()
-            .stage(stage)
-            .layout(engine.pipeline_layout());
+        let create = vk::ComputePipelineCreateInfo::default().stage(stage).layout(engine.pipeline_layout());
         // SAFETY: module and layout are this device's and alive; the cache is synchronised by the driver.
         let made = unsafe { device.create_compute_pipelines(engine.pipeline_cache(), &[create], None) };
         let pipeline = match made {

@@ -29,9 +29,7 @@ pub(super) fn choose(devices: &[Facts], selector: Option<&str>) -> Result<usize,
     let uuid = digits.len() == 32 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
     let name = |device: &Facts| device.name.to_lowercase();
     let find = |matching: &dyn Fn(&Facts) -> bool| -> Vec<usize> {
-        (0..devices.len())
-            .filter(|&index| matching(&devices[index]))
-            .collect()
+        (0..devices.len()).filter(|&index| matching(&devices[index])).collect()
     };
     let mut found = Vec::new();
     if uuid {
@@ -44,10 +42,7 @@ pub(super) fn choose(devices: &[Facts], selector: Option<&str>) -> Result<usize,
         found = find(&|device| name(device).contains(&lower));
     }
     let titles = |indices: &[usize]| -> Vec<String> {
-        indices
-            .iter()
-            .map(|&index| format!("{index} '{}'", devices[index].name))
-            .collect()
+        indices.iter().map(|&index| format!("{index} '{}'", devices[index].name)).collect()
     };
     match found[..] {
         [one] => Ok(one),
@@ -55,10 +50,7 @@ pub(super) fn choose(devices: &[Facts], selector: Option<&str>) -> Result<usize,
             selector: selector.to_owned(),
             known: titles(&(0..devices.len()).collect::<Vec<_>>()),
         }),
-        _ => Err(Error::AmbiguousDevice {
-            selector: selector.to_owned(),
-            matches: titles(&found),
-        }),
+        _ => Err(Error::AmbiguousDevice { selector: selector.to_owned(), matches: titles(&found) }),
     }
 }
 
@@ -94,11 +86,7 @@ mod tests {
         vec![
             device(0, "NVIDIA T4", "00112233445566778899aabbccddeeff"),
             device(1, "NVIDIA T400", "ffeeddccbbaa99887766554433221100"),
-            device(
-                2,
-                "llvmpipe (LLVM 15.0.6, 256 bits)",
-                "6d657361323200000000000000000000",
-            ),
+            device(2, "llvmpipe (LLVM 15.0.6, 256 bits)", "6d657361323200000000000000000000"),
             device(3, "NVIDIA RTX 4090", "ffeeddccbbaa99887766554433221100"),
         ]
     }
@@ -115,36 +103,21 @@ mod tests {
         assert_eq!(choose(&machine(), Some("4090")).unwrap(), 3);
         // No such index, but a name has it.
         assert_eq!(choose(&machine(), Some("256")).unwrap(), 2);
-        assert!(matches!(
-            choose(&machine(), Some("77")),
-            Err(Error::UnknownDevice { .. })
-        ));
+        assert!(matches!(choose(&machine(), Some("77")), Err(Error::UnknownDevice { .. })));
     }
 
     #[test]
     fn a_uuid_may_have_dashes_and_any_case() {
-        assert_eq!(
-            choose(&machine(), Some("00112233-4455-6677-8899-AABBCCDDEEFF")).unwrap(),
-            0
-        );
-        assert_eq!(
-            choose(&machine(), Some("6D657361323200000000000000000000")).unwrap(),
-            2
-        );
+        assert_eq!(choose(&machine(), Some("00112233-4455-6677-8899-AABBCCDDEEFF")).unwrap(), 0);
+        assert_eq!(choose(&machine(), Some("6D657361323200000000000000000000")).unwrap(), 2);
         let unknown = "0".repeat(32);
-        assert!(matches!(
-            choose(&machine(), Some(&unknown)),
-            Err(Error::UnknownDevice { .. })
-        ));
+        assert!(matches!(choose(&machine(), Some(&unknown)), Err(Error::UnknownDevice { .. })));
     }
 
     #[test]
     fn two_drivers_for_one_card_share_a_uuid_and_are_ambiguous() {
         let error = choose(&machine(), Some("ffeeddccbbaa99887766554433221100")).unwrap_err();
-        assert!(
-            matches!(&error, Error::AmbiguousDevice { matches, .. } if matches.len() == 2),
-            "{error}"
-        );
+        assert!(matches!(&error, Error::AmbiguousDevice { matches, .. } if matches.len() == 2), "{error}");
     }
 
     #[test]
@@ -157,19 +130,10 @@ mod tests {
     #[test]
     fn errors_list_what_there_is() {
         let error = choose(&machine(), Some("nvidia")).unwrap_err().to_string();
-        assert!(
-            error.contains("0 'NVIDIA T4'") && error.contains("3 'NVIDIA RTX 4090'"),
-            "{error}"
-        );
+        assert!(error.contains("0 'NVIDIA T4'") && error.contains("3 'NVIDIA RTX 4090'"), "{error}");
         let error = choose(&machine(), Some("radeon")).unwrap_err().to_string();
-        assert!(
-            error.contains("radeon") && error.contains("2 'llvmpipe"),
-            "{error}"
-        );
-        assert!(matches!(
-            choose(&machine(), Some("")),
-            Err(Error::UnknownDevice { .. })
-        ));
+        assert!(error.contains("radeon") && error.contains("2 'llvmpipe"), "{error}");
+        assert!(matches!(choose(&machine(), Some("")), Err(Error::UnknownDevice { .. })));
         assert!(matches!(choose(&[], None), Err(Error::NoDevice)));
         assert!(matches!(choose(&[], Some("0")), Err(Error::NoDevice)));
     }

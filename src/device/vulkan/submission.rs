@@ -49,10 +49,7 @@ impl Pending {
         let compiled = &program.compiled;
         let rows = inputs.rows();
         if !compiled.pipeline.is_of(engine.logical()) || !inputs.is_of(engine) {
-            return Err(Error::Shape(format!(
-                "{} or its inputs were made for another device",
-                compiled.id
-            )));
+            return Err(Error::Shape(format!("{} or its inputs were made for another device", compiled.id)));
         }
         if inputs.columns() != compiled.inputs {
             return Err(Error::Shape(format!(
@@ -84,27 +81,12 @@ impl Pending {
         };
 
         let bytes = u64::from(rows) * compiled.outputs as u64 * 4;
-        let role = if engine.staging {
-            Role::DeviceColumns
-        } else {
-            Role::SharedOutputs
-        };
+        let role = if engine.staging { Role::DeviceColumns } else { Role::SharedOutputs };
         let outputs = engine.pool.lease(role, bytes)?;
-        let download = engine
-            .staging
-            .then(|| engine.pool.lease(Role::Download, bytes))
-            .transpose()?;
-        let written = Extent {
-            buffer: outputs.handle(),
-            bytes,
-        };
+        let download = engine.staging.then(|| engine.pool.lease(Role::Download, bytes)).transpose()?;
+        let written = Extent { buffer: outputs.handle(), bytes };
         let to = download.as_ref().map(|lease| lease.handle());
-        let held = Held {
-            inputs: inputs.clone(),
-            _program: program.clone(),
-            outputs,
-            download,
-        };
+        let held = Held { inputs: inputs.clone(), _program: program.clone(), outputs, download };
         let flight = pending.flight.insert(Flight::new(engine, held)?);
         flight.lane().bind(columns, written);
         if engine.poison {
@@ -167,11 +149,7 @@ impl Pending {
         self.queued_rows = self.rows - first;
         let mut pairs = 0u32..;
         for (index, &(first, count)) in parts.iter().enumerate() {
-            let range = Range {
-                first,
-                count,
-                stride: self.rows,
-            };
+            let range = Range { first, count, stride: self.rows };
             let commands = flight.lane().record_dispatch(
                 &program.compiled,
                 self.engine.pipeline_layout(),
@@ -188,25 +166,17 @@ impl Pending {
         let Some(flight) = &mut self.flight else {
             return Ok(0.0);
         };
-        let range = Range {
-            first,
-            count,
-            stride: self.rows,
-        };
+        let range = Range { first, count, stride: self.rows };
         let layout = self.engine.pipeline_layout();
         let ns = match self.engine.stopwatch.clock {
             Clock::HostFence => {
-                let commands = flight
-                    .lane()
-                    .record_dispatch(&self.program.compiled, layout, range, None)?;
+                let commands = flight.lane().record_dispatch(&self.program.compiled, layout, range, None)?;
                 flight.run_alone(commands)?
             }
             Clock::DeviceTimestamps => {
                 flight.lane().reserve_timestamps(1)?;
                 let commands =
-                    flight
-                        .lane()
-                        .record_dispatch(&self.program.compiled, layout, range, Some(0))?;
+                    flight.lane().record_dispatch(&self.program.compiled, layout, range, Some(0))?;
                 flight.submit(commands, true)?;
                 flight.finish()?;
                 elapsed_ns(&self.engine, &flight.lane().timestamps(1)?)
@@ -241,8 +211,5 @@ impl Pending {
 
 /// The sum over pairs of timestamps.
 fn elapsed_ns(engine: &Engine, stamps: &[u64]) -> f64 {
-    stamps
-        .chunks_exact(2)
-        .map(|pair| engine.stopwatch.ns(pair[0], pair[1]))
-        .sum()
+    stamps.chunks_exact(2).map(|pair| engine.stopwatch.ns(pair[0], pair[1])).sum()
 }

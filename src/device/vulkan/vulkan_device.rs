@@ -45,10 +45,7 @@ impl VulkanDevice {
                 .iter()
                 .map(|adapter| format!("{} '{}'", adapter.facts.index, adapter.facts.name))
                 .collect();
-            return Err(Error::UnknownDevice {
-                selector: index.to_string(),
-                known,
-            });
+            return Err(Error::UnknownDevice { selector: index.to_string(), known });
         }
         let adapter = adapters.swap_remove(index);
         let engine = Engine::open(instance.loaded(), &adapter, options)?;
