@@ -56,8 +56,9 @@ pub(super) fn compile(text: &str, includes: Includes<'_>, debug_lines: bool) -> 
     // SAFETY: `input` and all it points to outlive the shader, which is dropped at the end of this function.
     let shader =
         Shader(NonNull::new(unsafe { sys::glslang_shader_create(&input) }).ok_or("ERROR: no shader")?);
-    // SAFETY: the shader is live and `input` is the one it was created from; likewise for the next call.
+    // SAFETY: the shader is live and `input` is the one it was created from.
     let preprocessed = unsafe { sys::glslang_shader_preprocess(shader.0.as_ptr(), &input) };
+    // SAFETY: likewise, and parsing follows preprocessing.
     if preprocessed == 0 || unsafe { sys::glslang_shader_parse(shader.0.as_ptr(), &input) } == 0 {
         return Err(shader.log());
     }
