@@ -214,8 +214,10 @@ mod tests {
         assert_eq!(verdict(&AXIS, [0.002, 0.0, 1.0], 0.01 / UNIT_ROUNDOFF), Verdict::IllConditioned);
         // Half a radian to first order may be any turn; a quarter, at most asin(1/2)/2 = 0.26.
         assert_eq!(verdict(&AXIS, [1.0, 0.0, 0.0], 0.5 / (4.0 * UNIT_ROUNDOFF)), Verdict::IllConditioned);
-        assert_eq!(verdict(&AXIS, [0.261, 0.0, 1.0], 0.25 / (4.0 * UNIT_ROUNDOFF)), Verdict::IllConditioned);
-        assert_eq!(verdict(&AXIS, [0.270, 0.0, 1.0], 0.25 / (4.0 * UNIT_ROUNDOFF)), Verdict::Inaccurate);
+        let turned = |angle: f32| [angle.sin(), 0.0, angle.cos()];
+        let quarter = 0.25 / (4.0 * UNIT_ROUNDOFF);
+        assert_eq!(verdict(&AXIS, turned(0.261), quarter), Verdict::IllConditioned);
+        assert_eq!(verdict(&AXIS, turned(0.263), quarter), Verdict::Inaccurate);
         assert_eq!(verdict(&AXIS, [1.0, 0.0, 0.0], f64::INFINITY), Verdict::Ok);
         assert_eq!(verdict(&AXIS, [0.0, 0.0, 1.1], 1.0), Verdict::NotUnit);
         assert_eq!(verdict(&AXIS, [0.0, 0.0, 0.0], f64::INFINITY), Verdict::NotUnit);
