@@ -16,9 +16,16 @@ summary = "positive, with p1 x p2 from exact partial products: lines seen nearly
 defines = { SPLIT_NORMAL = 1 }
 
 [[variant]]
-name = "positive_split_scaled"
+name = "positive_split_precise"
+summary = "positive, with p1 x p2 from exact partial products: lines seen nearly end-on as well"
+defines = { SPLIT_NORMAL = 1 }
+precise = true
+
+[[variant]]
+name = "positive_split_scaled_precise"
 summary = "positive_split, the ends first scaled exactly by a power of two: any size of the scene"
 defines = { SPLIT_NORMAL = 1, SCALED = 1 }
+precise = true
 ---*/
 
 // With theta the angle between the visible ends a, b of the line after Minv, ra and rb their distances,
@@ -30,14 +37,18 @@ defines = { SPLIT_NORMAL = 1, SCALED = 1 }
 // themselves. n is the nearer end's cross product with p2 - p1, whose terms stay small for a far light (the difference of close f32
 // is exact), and
 // the area after Minv is cof(Minv) n, not a second cross product; a clipped end is read off that area too.
-// SPLIT_NORMAL takes n from exact partial products instead.
+// SPLIT_NORMAL takes n from exact partial products instead; a compiler that factors a_high b_high + a_high b_low
+// undoes them, so these belong to `precise`.
 //
 // Domain: any finite ends within 2^-30..2^30 (SCALED: any), any Minv of moderate condition. Equal ends and lines seen
 // end-on answer 0.
 // Source: ours.
 // Bound: about 20 roundings times the condition of Minv, plus 2^-24/sin of the angle between the nearer end and p2 - p1; with
 // SPLIT_NORMAL plus 2^-34 |p1| |p2|/|p1 x p2| instead.
-// Measured: -
+// Measured: 1M a scenario, lavapipe (Mesa 22.3), inaccurate or not finite: positive none but 1 in 1M lines that pass
+// within 1e-6 of their half-length, and 4 % of the edge cases; positive_split none but 4 %, scaled 0.9 %. Median
+// relative error of a half-length 0.25 at distance 10 / 100 / 1000: 1e-7 in all three; positive_split without `precise`
+// 2e-7 / 1e-6 / 1e-5.
 
 #include "common/line_cosine.glsl"
 #ifdef SPLIT_NORMAL
