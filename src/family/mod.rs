@@ -2,6 +2,7 @@
 
 mod cone_axes;
 mod ellipse_axes;
+mod ltc_line;
 mod problem;
 
 pub use problem::{
@@ -9,7 +10,8 @@ pub use problem::{
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] = &[&cone_axes::ConeAxes, &ellipse_axes::EllipseAxes];
+pub static FAMILIES: &[&dyn Problem] =
+    &[&cone_axes::ConeAxes, &ellipse_axes::EllipseAxes, &ltc_line::LtcLine];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {
