@@ -1,4 +1,6 @@
-//! Pure mathematics: spacing of floating-point formats, exact sums.
+//! Pure mathematics: spacing of floating-point formats, exact sums, integrals of spheres.
 
+pub mod binary16;
+pub mod clipped_sphere;
 pub mod exact;
 pub mod spacing;
