@@ -91,6 +91,8 @@ float horizon_far(float u)
 // Source: ours, from Snyder, "Area Light Sources for Real-Time Graphics", 1996.
 float horizon_stable(float c, float s)
 {
+    // Beyond 1 by a rounding, s would leave r^2 > 0 where q^2 = 0.
+    s = clamp(s, 0.0, 1.0);
     float a = abs(c);
     float whole = s * max(c, 0.0);
     // c^2 from exact partial products: s - c^2 good to 2^-35 c^2.
@@ -100,7 +102,7 @@ float horizon_stable(float c, float s)
         return whole;
     }
     float r = sqrt(r2);
-    float cos_sigma = sqrt(max(1.0 - s, 0.0));
+    float cos_sigma = sqrt(1.0 - s);
     float ac = a * cos_sigma;
     float share = r2 / ((1.0 - a) * (1.0 + a));
     float beyond;
