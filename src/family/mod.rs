@@ -2,6 +2,7 @@
 
 mod cone_axes;
 mod ellipse_axes;
+mod horizon_sphere;
 mod ltc_line;
 mod problem;
 
@@ -11,7 +12,7 @@ pub use problem::{
 
 /// Every family, sorted by name.
 pub static FAMILIES: &[&dyn Problem] =
-    &[&cone_axes::ConeAxes, &ellipse_axes::EllipseAxes, &ltc_line::LtcLine];
+    &[&cone_axes::ConeAxes, &ellipse_axes::EllipseAxes, &horizon_sphere::HorizonSphere, &ltc_line::LtcLine];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {

@@ -1,6 +1,8 @@
 //! Pure mathematics: spacing of floating-point formats, exact sums and products, quadrature, cubics, and the
 //! integrals that several families share.
 
+pub mod binary16;
+pub mod clipped_sphere;
 pub mod cubic;
 pub mod exact;
 pub mod gauss_legendre;
