@@ -1,5 +1,6 @@
 //! The problems: one file each, and the slice that lists them.
 
+mod edge_integral;
 mod ellipse_axes;
 mod problem;
 
@@ -8,7 +9,7 @@ pub use problem::{
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] = &[&ellipse_axes::EllipseAxes];
+pub static FAMILIES: &[&dyn Problem] = &[&edge_integral::EdgeIntegral, &ellipse_axes::EllipseAxes];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {
