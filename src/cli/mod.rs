@@ -5,7 +5,9 @@
 
 mod count;
 mod devices;
+mod draft;
 mod eval;
+mod fit;
 mod list;
 mod machine;
 mod run;
@@ -48,6 +50,8 @@ enum Verb {
     Bench(run::Arguments),
     /// Evaluate your own configurations, by oracle and variants, CSV to CSV
     Eval(eval::Arguments),
+    /// Fit tables that shaders sample: linearly transformed cosines of a material
+    Fit(fit::Arguments),
 }
 
 /// Runs the program on the process's arguments.
@@ -74,6 +78,7 @@ pub fn main() -> ExitCode {
         Verb::Audit(arguments) => run::run(&arguments, run::Halves::Audit, &stop),
         Verb::Bench(arguments) => run::run(&arguments, run::Halves::Bench, &stop),
         Verb::Eval(arguments) => eval::eval(&arguments, &stop),
+        Verb::Fit(arguments) => fit::fit(&arguments, &stop),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,0 +1,168 @@
+//! How far a transformed cosine is from a GGX lobe, and the moments of that lobe.
+
+use glam::DVec3;
+
+use super::ggx::Ggx;
+use super::ltc::Ltc;
+
+use core::f64::consts::TAU;
+
+/// Strata a side of the error's sample sets, as published.
+const ERROR_STRATA: usize = 32;
+
+/// Strata a side for the moments. With visible normals the integrands are bounded.
+const MOMENT_STRATA: usize = 64;
+
+/// Midpoints of the strata of a square, mapped to slopes and to cosine directions.
+///
+/// Both lobes are symmetric in y, and so are the strata in their angle: only those with y > 0 are kept, which gives the
+/// same sums at half the cost.
+#[derive(Clone, Debug)]
+pub struct Strata {
+    /// Slopes, in units of alpha, of GGX-distributed micronormals.
+    slopes: Vec<(f64, f64)>,
+    /// Cosine-distributed directions.
+    cosines: Vec<DVec3>,
+    /// Angle (cosine, sine) and height, for [`Ggx::sample_visible`].
+    visible: Vec<((f64, f64), f64)>,
+}
+
+/// What a lobe integrates to.
+#[derive(Clone, Copy, Debug)]
+pub struct Moments {
+    /// Directional albedo without Fresnel.
+    pub magnitude: f64,
+    /// The same, each direction weighted with Schlick's (1 - cos)^5.
+    pub fresnel: f64,
+    /// Unit vector along the value-weighted mean direction, in the xz plane.
+    pub axis: DVec3,
+}
+
+/// The distance between two lobes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual {
+    /// The published measure: the integral of |GGX - LTC|^3 over directions, sr^-2. It grows as alpha^-4.
+    pub error: f64,
+    /// L3 norm of the difference over that of GGX, the same estimate for both: comparable between roughnesses.
+    pub relative: f64,
+}
+
+impl Default for Strata {
+    fn default() -> Self {
+        Strata::new(ERROR_STRATA, MOMENT_STRATA)
+    }
+}
+
+impl Strata {
+    /// `error` and `moments` strata a side, both even and `error` a multiple of 4.
+    pub fn new(error: usize, moments: usize) -> Self {
+        let mut cosines = Vec::new();
+        midpoints(error, |(cos, sin), u| {
+            // The height of a uniform point on the unit disk's hemisphere.
+            let (z, r) = (libm::sqrt(u), libm::sqrt(1.0 - u));
+            cosines.push(DVec3::new(r * cos, r * sin, z));
+        });
+        let mut slopes = Vec::new();
+        midpoints(error, |(cos, sin), u| {
+            let r = libm::sqrt(u / (1.0 - u));
+            slopes.push((r * cos, r * sin));
+        });
+        let mut visible = Vec::new();
+        midpoints(moments, |angle, u| visible.push((angle, u)));
+        Strata { slopes, cosines, visible }
+    }
+
+    /// Magnitude, Fresnel term and mean direction of a lobe.
+    pub fn moments(&self, ggx: &Ggx) -> Moments {
+        let (mut magnitude, mut fresnel, mut sum) = (0.0, 0.0, DVec3::ZERO);
+        for &(angle, u) in &self.visible {
+            let (light, share) = ggx.sample_visible(angle, u);
+            let rest = 1.0 - (ggx.view() + light).normalize().dot(ggx.view());
+            magnitude += share;
+            fresnel += share * (rest * rest) * (rest * rest) * rest;
+            sum += share * light;
+        }
+        let count = self.visible.len() as f64;
+        let axis = DVec3::new(sum.x, 0.0, sum.z).normalize();
+        Moments { magnitude: magnitude / count, fresnel: fresnel / count, axis }
+    }
+
+    /// What of the error does not depend on the LTC.
+    pub fn target(&self, ggx: Ggx) -> Target<'_> {
+        let samples = self
+            .slopes
+            .iter()
+            .map(|&(x, y)| {
+                let light = ggx.sample(x, y);
+                let value = ggx.eval(light);
+                Sample { light, value: value.value, density: value.density }
+            })
+            .collect();
+        Target { ggx, samples, cosines: &self.cosines }
+    }
+}
+
+/// Visits (cosine, sine) of the angle and the other coordinate of each midpoint in the half with positive sine.
+fn midpoints(strata: usize, mut visit: impl FnMut((f64, f64), f64)) {
+    let midpoint = |index: usize| (index as f64 + 0.5) / strata as f64;
+    for angle in 0..strata / 2 {
+        let (sin, cos) = libm::sincos(TAU * midpoint(angle));
+        for other in 0..strata {
+            visit((cos, sin), midpoint(other));
+        }
+    }
+}
+
+/// A GGX lobe, ready to be compared with many LTCs.
+#[derive(Clone, Debug)]
+pub struct Target<'a> {
+    ggx: Ggx,
+    samples: Vec<Sample>,
+    cosines: &'a [DVec3],
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    light: DVec3,
+    value: f64,
+    density: f64,
+}
+
+/// Partial sums, so that additions need not wait for each other; the order is fixed.
+const LANES: usize = 8;
+
+impl Target<'_> {
+    /// The published measure, multiple importance sampling with the balance heuristic over both sample sets.
+    pub fn error(&self, ltc: &Ltc) -> f64 {
+        self.sum(ltc, |difference, _| difference)
+    }
+
+    /// The measure in both its forms.
+    pub fn residual(&self, ltc: &Ltc) -> Residual {
+        let error = self.error(ltc);
+        let norm = self.sum(ltc, |_, ggx| ggx);
+        Residual { error, relative: libm::cbrt(error / norm) }
+    }
+
+    fn sum(&self, ltc: &Ltc, of: impl Fn(f64, f64) -> f64) -> f64 {
+        let per_magnitude = 1.0 / ltc.magnitude();
+        let term = |ltc_value: f64, value: f64, density: f64| {
+            let x = of((value - ltc_value).abs(), value);
+            x * x * x / (ltc_value * per_magnitude + density)
+        };
+        let mut sums = [0.0; LANES];
+        for cosines in self.cosines.chunks_exact(LANES) {
+            for (sum, cosine) in sums.iter_mut().zip(cosines) {
+                let (light, ltc_value) = ltc.transform(*cosine);
+                let ggx = self.ggx.eval(light);
+                *sum += term(ltc_value, ggx.value, ggx.density);
+            }
+        }
+        for samples in self.samples.chunks_exact(LANES) {
+            for (sum, sample) in sums.iter_mut().zip(samples) {
+                *sum += term(ltc.eval(sample.light), sample.value, sample.density);
+            }
+        }
+        sums.iter().sum::<f64>() / self.samples.len() as f64
+    }
+}

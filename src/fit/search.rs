@@ -1,0 +1,111 @@
+//! Nelder-Mead over the parameters of an LTC.
+
+use argmin::core::{CostFunction, Error, Executor, State};
+use argmin::solver::neldermead::NelderMead;
+use argmin_math::{ArgminAdd, ArgminMul, ArgminSub};
+use glam::DVec3;
+
+use super::ltc::Ltc;
+use super::measure::Target;
+
+/// Iterations of the first search and the least relative spread of errors in its simplex, as published.
+const FIRST: (u64, f64) = (100, 1e-5);
+
+/// The same for the second search. An error within 1e-9 of its minimum puts parameters within about 3e-5 of theirs.
+const SECOND: (u64, f64) = (200, 1e-9);
+
+/// Offset of the first simplex: absolute for the first search, as published, relative for the second.
+const OFFSET: f64 = 0.05;
+
+/// Least width, as published: smaller ones lead to no lobe at all.
+const MIN_WIDTH: f64 = 1e-7;
+
+/// m11, m22 and m13 of [`Ltc::in_frame`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Parameters(pub(super) [f64; 3]);
+
+impl ArgminAdd<Parameters, Parameters> for Parameters {
+    fn add(&self, other: &Parameters) -> Parameters {
+        Parameters(std::array::from_fn(|at| self.0[at] + other.0[at]))
+    }
+}
+
+impl ArgminSub<Parameters, Parameters> for Parameters {
+    fn sub(&self, other: &Parameters) -> Parameters {
+        Parameters(std::array::from_fn(|at| self.0[at] - other.0[at]))
+    }
+}
+
+impl ArgminMul<f64, Parameters> for Parameters {
+    fn mul(&self, factor: &f64) -> Parameters {
+        Parameters(self.0.map(|parameter| parameter * factor))
+    }
+}
+
+/// The lobe to approximate, in the frame and with the magnitude that the LTC takes from it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Task<'a> {
+    pub(super) target: &'a Target<'a>,
+    pub(super) axis: DVec3,
+    pub(super) magnitude: f64,
+    /// Whether the lobe is symmetric about its axis: only m11 counts.
+    pub(super) symmetric: bool,
+}
+
+impl CostFunction for &Task<'_> {
+    type Param = Parameters;
+    type Output = f64;
+
+    /// The logarithm of the error: Nelder-Mead only compares, so it decides as it would by the error itself, but its
+    /// tolerance becomes relative.
+    fn cost(&self, parameters: &Parameters) -> Result<f64, Error> {
+        let error = self.target.error(&self.ltc(*parameters));
+        // A matrix without an inverse is no lobe at all.
+        Ok(if error.is_finite() { libm::log(error.max(f64::MIN_POSITIVE)) } else { f64::MAX })
+    }
+}
+
+impl Task<'_> {
+    /// The LTC of `parameters`.
+    pub(super) fn ltc(&self, parameters: Parameters) -> Ltc {
+        let Parameters([m11, m22, m13]) = self.allowed(parameters);
+        Ltc::in_frame(self.axis, m11, m22, m13, self.magnitude)
+    }
+
+    /// Widths are kept from vanishing, as published.
+    fn allowed(&self, Parameters([m11, m22, m13]): Parameters) -> Parameters {
+        let m11 = m11.max(MIN_WIDTH);
+        Parameters(if self.symmetric { [m11, m11, 0.0] } else { [m11, m22.max(MIN_WIDTH), m13] })
+    }
+
+    /// The best parameters near `start`.
+    ///
+    /// First the published search; then one more from where that ended, with a simplex in proportion to the widths and
+    /// a narrower tolerance: what narrow lobes and collapsed simplices need.
+    pub(super) fn search(&self, start: Parameters) -> Result<Parameters, Error> {
+        let first = self.descend(start, [OFFSET; 3], FIRST)?;
+        let [m11, m22, _] = first.0;
+        // The shear is in units of the width along it.
+        self.descend(first, [OFFSET * m11, OFFSET * m22, OFFSET * m11], SECOND)
+    }
+
+    fn descend(
+        &self,
+        start: Parameters,
+        offsets: [f64; 3],
+        (iterations, tolerance): (u64, f64),
+    ) -> Result<Parameters, Error> {
+        let mut simplex = vec![start];
+        for (at, offset) in offsets.into_iter().enumerate().take(if self.symmetric { 1 } else { 3 }) {
+            let mut vertex = start;
+            vertex.0[at] += offset;
+            simplex.push(vertex);
+        }
+        let solver = NelderMead::new(simplex).with_sd_tolerance(tolerance)?;
+        let result = Executor::new(self, solver)
+            .configure(|state| state.max_iters(iterations))
+            .timer(false)
+            .run()?;
+        Ok(self.allowed(result.state.get_best_param().copied().unwrap_or(start)))
+    }
+}
