@@ -35,6 +35,11 @@ impl Ggx {
         Ggx { alpha, view, masking: smith(alpha, cos) / cos }
     }
 
+    /// Width of the distribution of slopes.
+    pub fn alpha(&self) -> f64 {
+        self.alpha
+    }
+
     /// Direction to the viewer.
     pub fn view(&self) -> DVec3 {
         self.view
@@ -66,17 +71,47 @@ impl Ggx {
     }
 
     /// The direction that mirrors the viewer at a visible micronormal, and the share of its light that is not shadowed:
-    /// BRDF times cosine over the density of such directions. `cos` and `sin` are of an angle, `u` is in 0..1; both
-    /// uniform give normals as often as they are visible (Dupuy and Benyoub 2023).
-    pub fn sample_visible(&self, (cos, sin): (f64, f64), u: f64) -> (DVec3, f64) {
-        let stretched = DVec3::new(self.alpha * self.view.x, 0.0, self.view.z).normalize();
-        let z = (1.0 - u) * (1.0 + stretched.z) - stretched.z;
+    /// BRDF times cosine over the density of such directions. With a uniform angle, given as (cosine, sine), and `rest`
+    /// uniform in 0..1, normals are found as often as they are visible (Dupuy and Benyoub 2023).
+    pub fn sample_visible(&self, (cos, sin): (f64, f64), rest: f64) -> (DVec3, f64) {
+        let view = DVec3::new(self.alpha * self.view.x, 0.0, self.view.z).normalize();
+        // The height of the point on the unit sphere's cap above -view, plus view's.
+        let sum = rest * (1.0 + view.z);
+        let z = sum - view.z;
         let r = (1.0 - z * z).max(0.0).sqrt();
-        let cap = DVec3::new(r * cos, r * sin, z) + stretched;
+        let cap = DVec3::new(r * cos + view.x, r * sin, sum);
         let light = self.mirror(DVec3::new(self.alpha * cap.x, self.alpha * cap.y, cap.z));
         // G2/G1 = (1 + Lambda_v)/(1 + Lambda_v + Lambda_l).
         let share = (1.0 + self.masking) * light.z / (self.masking * light.z + smith(self.alpha, light.z));
         (light, share.max(0.0))
+    }
+
+    /// The intervals of `rest`, as (start, length), in which [`Ggx::sample_visible`] finds light above the horizon.
+    ///
+    /// At 0 the normal is horizontal and light comes from below; between, it may rise and set more than once.
+    pub fn lit(&self, angle: (f64, f64), intervals: &mut Vec<(f64, f64)>) {
+        let above = |rest: f64| self.sample_visible(angle, rest).0.z > 0.0;
+        intervals.clear();
+        let (mut last, mut start) = (0.0, None);
+        for step in -40..=40 {
+            // Evenly in the logarithm at both ends, down to 1e-13: scales go down to alpha^2.
+            let rest = 1.0 / (1.0 + libm::exp(-0.75 * f64::from(step)));
+            if above(rest) != start.is_some() {
+                let (mut low, mut high) = (last, rest);
+                for _ in 0..50 {
+                    let middle = 0.5 * (low + high);
+                    if above(middle) == start.is_some() { low = middle } else { high = middle }
+                }
+                match start.take() {
+                    None => start = Some(high),
+                    Some(start) => intervals.push((start, high - start)),
+                }
+            }
+            last = rest;
+        }
+        if let Some(start) = start {
+            intervals.push((start, 1.0 - start));
+        }
     }
 
     fn mirror(&self, normal: DVec3) -> DVec3 {

@@ -20,11 +20,11 @@ impl Ltc {
         Ltc { matrix, inverse: matrix.inverse(), determinant: matrix.determinant().abs(), magnitude }
     }
 
-    /// The published parameters: in the frame (x, y, z) with y across the plane of symmetry and z = `axis`, the matrix
-    /// with columns (m11, 0, 0), (0, m22, 0), (m13, 0, 1). The axis is a unit vector in the xz plane.
-    pub fn in_frame(axis: DVec3, m11: f64, m22: f64, m13: f64, magnitude: f64) -> Self {
+    /// In the frame (x, y, z) with y across the plane of symmetry and z = `axis`, the matrix with columns (m11, 0, m31),
+    /// (0, m22, 0) and (m13, 0, 1); as published but for m31. The axis is a unit vector in the xz plane.
+    pub fn in_frame(axis: DVec3, m11: f64, m22: f64, m13: f64, m31: f64, magnitude: f64) -> Self {
         let x = DVec3::new(axis.z, 0.0, -axis.x);
-        Ltc::new(DMat3::from_cols(m11 * x, m22 * DVec3::Y, m13 * x + axis), magnitude)
+        Ltc::new(DMat3::from_cols(m11 * x + m31 * axis, m22 * DVec3::Y, m13 * x + axis), magnitude)
     }
 
     /// The inverse matrix, scaled so that its middle element is 1, which is what tables hold.

@@ -5,13 +5,14 @@ use glam::DVec3;
 use super::ggx::Ggx;
 use super::ltc::Ltc;
 
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 
 /// Strata a side of the error's sample sets, as published.
 const ERROR_STRATA: usize = 32;
 
-/// Strata a side for the moments. With visible normals the integrands are bounded.
-const MOMENT_STRATA: usize = 64;
+/// Angles of a whole turn, and heights at each, where the moments are evaluated. Twice as many change magnitudes by at
+/// most 1e-6.
+const MOMENT_NODES: (usize, usize) = (64, 32);
 
 /// Midpoints of the strata of a square, mapped to slopes and to cosine directions.
 ///
@@ -23,8 +24,10 @@ pub struct Strata {
     slopes: Vec<(f64, f64)>,
     /// Cosine-distributed directions.
     cosines: Vec<DVec3>,
-    /// Angle (cosine, sine) and height, for [`Ggx::sample_visible`].
-    visible: Vec<((f64, f64), f64)>,
+    /// Cosine and sine of angles of half a turn.
+    angles: Vec<(f64, f64)>,
+    /// Nodes and weights on (0, 1).
+    heights: Vec<(f64, f64)>,
 }
 
 /// What a lobe integrates to.
@@ -49,13 +52,13 @@ pub struct Residual {
 
 impl Default for Strata {
     fn default() -> Self {
-        Strata::new(ERROR_STRATA, MOMENT_STRATA)
+        Strata::new(ERROR_STRATA, MOMENT_NODES)
     }
 }
 
 impl Strata {
-    /// `error` and `moments` strata a side, both even and `error` a multiple of 4.
-    pub fn new(error: usize, moments: usize) -> Self {
+    /// `error` strata a side, a multiple of 4; for the moments an even number of angles, and of heights.
+    pub fn new(error: usize, (angles, heights): (usize, usize)) -> Self {
         let mut cosines = Vec::new();
         midpoints(error, |(cos, sin), u| {
             // The height of a uniform point on the unit disk's hemisphere.
@@ -67,24 +70,36 @@ impl Strata {
             let r = libm::sqrt(u / (1.0 - u));
             slopes.push((r * cos, r * sin));
         });
-        let mut visible = Vec::new();
-        midpoints(moments, |angle, u| visible.push((angle, u)));
-        Strata { slopes, cosines, visible }
+        let angles = (0..angles / 2)
+            .map(|angle| {
+                let (sin, cos) = libm::sincos(TAU * (angle as f64 + 0.5) / angles as f64);
+                (cos, sin)
+            })
+            .collect();
+        Strata { slopes, cosines, angles, heights: double_exponential(heights) }
     }
 
     /// Magnitude, Fresnel term and mean direction of a lobe.
+    ///
+    /// Where published samples of the normals' distribution leave magnitudes wrong by up to 7 %, this integrates over
+    /// those visible normals that mirror the viewer above the horizon: by the tanh-sinh rule in height, evenly in angle.
     pub fn moments(&self, ggx: &Ggx) -> Moments {
         let (mut magnitude, mut fresnel, mut sum) = (0.0, 0.0, DVec3::ZERO);
-        for &(angle, u) in &self.visible {
-            let (light, share) = ggx.sample_visible(angle, u);
-            let rest = 1.0 - (ggx.view() + light).normalize().dot(ggx.view());
-            magnitude += share;
-            fresnel += share * (rest * rest) * (rest * rest) * rest;
-            sum += share * light;
+        let mut lit = Vec::new();
+        for &angle in &self.angles {
+            ggx.lit(angle, &mut lit);
+            for &(start, length) in &lit {
+                for &(node, weight) in &self.heights {
+                    let (light, share) = ggx.sample_visible(angle, start + length * node);
+                    let share = share * weight * length / self.angles.len() as f64;
+                    let rest = 1.0 - (ggx.view() + light).normalize().dot(ggx.view());
+                    magnitude += share;
+                    fresnel += share * (rest * rest) * (rest * rest) * rest;
+                    sum += share * light;
+                }
+            }
         }
-        let count = self.visible.len() as f64;
-        let axis = DVec3::new(sum.x, 0.0, sum.z).normalize();
-        Moments { magnitude: magnitude / count, fresnel: fresnel / count, axis }
+        Moments { magnitude, fresnel, axis: DVec3::new(sum.x, 0.0, sum.z).normalize() }
     }
 
     /// What of the error does not depend on the LTC.
@@ -100,6 +115,19 @@ impl Strata {
             .collect();
         Target { ggx, samples, cosines: &self.cosines }
     }
+}
+
+/// Nodes and weights of the tanh-sinh rule on (0, 1): the horizon's shadow starts at one end, within alpha of it.
+fn double_exponential(count: usize) -> Vec<(f64, f64)> {
+    // At 3 the nodes are 2e-14 from the ends.
+    let step = 6.0 / count as f64;
+    let node = |index: usize| {
+        let t = (index as f64 + 0.5) * step - 3.0;
+        let x = PI * libm::sinh(t);
+        let node = 1.0 / (1.0 + libm::exp(-x));
+        (node, step * PI * libm::cosh(t) * node / (1.0 + libm::exp(x)))
+    };
+    (0..count).map(node).collect()
 }
 
 /// Visits (cosine, sine) of the angle and the other coordinate of each midpoint in the half with positive sine.
@@ -132,6 +160,11 @@ struct Sample {
 const LANES: usize = 8;
 
 impl Target<'_> {
+    /// The lobe.
+    pub fn ggx(&self) -> &Ggx {
+        &self.ggx
+    }
+
     /// The published measure, multiple importance sampling with the balance heuristic over both sample sets.
     pub fn error(&self, ltc: &Ltc) -> f64 {
         self.sum(ltc, |difference, _| difference)

@@ -78,7 +78,7 @@ impl Fitter {
 
     /// Parameters at normal incidence for each roughness, each search started from the next rougher result.
     fn normal_incidence(&self, stop: &AtomicBool) -> Result<Vec<Parameters>, Stopped> {
-        let mut parameters = Parameters([1.0, 1.0, 0.0]);
+        let mut parameters = Parameters([1.0, 1.0, 0.0, 0.0]);
         let mut all = Vec::new();
         for roughness in (0..self.size).rev() {
             if stop.load(Ordering::Relaxed) {
@@ -88,7 +88,7 @@ impl Fitter {
             let magnitude = self.strata.moments(&ggx).magnitude;
             let target = self.strata.target(ggx);
             let task = Task { target: &target, axis: DVec3::Z, magnitude, symmetric: true };
-            parameters = task.search(parameters).map_err(Stopped::Optimiser)?;
+            (parameters, _) = task.search(parameters).map_err(Stopped::Optimiser)?;
             all.push(parameters);
         }
         all.reverse();
@@ -115,10 +115,11 @@ impl Fitter {
                 let symmetric = angle == 0;
                 let axis = if symmetric { DVec3::Z } else { axis };
                 let task = Task { target: &target, axis, magnitude, symmetric };
+                let mut best = parameters;
                 if !symmetric {
-                    parameters = task.search(parameters).map_err(Stopped::Optimiser)?;
+                    (parameters, best) = task.search(parameters).map_err(Stopped::Optimiser)?;
                 }
-                let ltc = task.ltc(parameters);
+                let ltc = task.ltc(best);
                 progress();
                 let cell = Cell::new(ltc.minv(), magnitude, fresnel);
                 Ok((cell, target.residual(&ltc)))

@@ -8,21 +8,26 @@ use glam::DVec3;
 use super::ltc::Ltc;
 use super::measure::Target;
 
-/// Iterations of the first search and the least relative spread of errors in its simplex, as published.
-const FIRST: (u64, f64) = (100, 1e-5);
+/// Iterations of the published search and the least relative spread of errors in its simplex.
+const PUBLISHED: (u64, f64) = (100, 1e-5);
 
-/// The same for the second search. An error within 1e-9 of its minimum puts parameters within about 3e-5 of theirs.
-const SECOND: (u64, f64) = (200, 1e-9);
+/// The same for further searches. An error within 1e-9 of its minimum puts parameters within about 3e-5 of theirs.
+const FURTHER: (u64, f64) = (200, 1e-9);
 
-/// Offset of the first simplex: absolute for the first search, as published, relative for the second.
+/// Offset of the first simplex: absolute for the published search, relative for the others.
 const OFFSET: f64 = 0.05;
 
-/// Least width, as published: smaller ones lead to no lobe at all.
-const MIN_WIDTH: f64 = 1e-7;
+/// Least width, so that lobes do not collapse. The published 1e-7 is wider than the smoothest lobe at grazing angles,
+/// 2e-5 cos(1.57).
+const MIN_WIDTH: f64 = 1e-9;
 
-/// m11, m22 and m13 of [`Ltc::in_frame`].
+/// What turning the axis must take off the relative residual. Nearly a mirror's lobes look the same with any turn that
+/// their shear undoes; without this their matrices would be noise.
+const WORTH_TURNING: f64 = 1e-3;
+
+/// m11, m22, m13 and m31 of [`Ltc::in_frame`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Parameters(pub(super) [f64; 3]);
+pub(super) struct Parameters(pub(super) [f64; 4]);
 
 impl ArgminAdd<Parameters, Parameters> for Parameters {
     fn add(&self, other: &Parameters) -> Parameters {
@@ -68,35 +73,58 @@ impl CostFunction for &Task<'_> {
 impl Task<'_> {
     /// The LTC of `parameters`.
     pub(super) fn ltc(&self, parameters: Parameters) -> Ltc {
-        let Parameters([m11, m22, m13]) = self.allowed(parameters);
-        Ltc::in_frame(self.axis, m11, m22, m13, self.magnitude)
+        let Parameters([m11, m22, m13, m31]) = self.allowed(parameters);
+        Ltc::in_frame(self.axis, m11, m22, m13, m31, self.magnitude)
     }
 
     /// Widths are kept from vanishing, as published.
-    fn allowed(&self, Parameters([m11, m22, m13]): Parameters) -> Parameters {
+    fn allowed(&self, Parameters([m11, m22, m13, m31]): Parameters) -> Parameters {
         let m11 = m11.max(MIN_WIDTH);
-        Parameters(if self.symmetric { [m11, m11, 0.0] } else { [m11, m22.max(MIN_WIDTH), m13] })
+        Parameters(if self.symmetric { [m11, m11, 0.0, 0.0] } else { [m11, m22.max(MIN_WIDTH), m13, m31] })
     }
 
-    /// The best parameters near `start`.
+    /// Parameters near `start` without a turn, for the next search to start from, and the best ones.
     ///
-    /// First the published search; then one more from where that ended, with a simplex in proportion to the widths and
-    /// a narrower tolerance: what narrow lobes and collapsed simplices need.
-    pub(super) fn search(&self, start: Parameters) -> Result<Parameters, Error> {
-        let first = self.descend(start, [OFFSET; 3], FIRST)?;
-        let [m11, m22, _] = first.0;
-        // The shear is in units of the width along it.
-        self.descend(first, [OFFSET * m11, OFFSET * m22, OFFSET * m11], SECOND)
+    /// First the published search; then one from where that ended, with a simplex in proportion to the widths and a
+    /// narrower tolerance: what narrow lobes and collapsed simplices need. Last one with m31 free, since the mean
+    /// direction is not the best axis.
+    pub(super) fn search(&self, start: Parameters) -> Result<(Parameters, Parameters), Error> {
+        let first = self.descend(self.nearer(start, self.mirror()), &[OFFSET; 3], PUBLISHED)?;
+        let [m11, m22, ..] = first.0;
+        // Shears are in units of the width along them.
+        let offsets = [OFFSET * m11, OFFSET * m22, OFFSET * m11, OFFSET * m11];
+        if self.symmetric {
+            let only = self.descend(first, &offsets[..1], FURTHER)?;
+            return Ok((only, only));
+        }
+        let straight = self.descend(first, &offsets[..3], FURTHER)?;
+        let turned = self.descend(straight, &offsets, FURTHER)?;
+        let relative = |parameters| self.target.residual(&self.ltc(parameters)).relative;
+        let worth = relative(straight) - relative(turned) > WORTH_TURNING;
+        Ok((straight, if worth { turned } else { straight }))
+    }
+
+    /// The widths of a nearly smooth surface's lobe: a micronormal's slope turns light by twice its angle in the plane of
+    /// incidence, by less across.
+    fn mirror(&self) -> Parameters {
+        let ggx = self.target.ggx();
+        Parameters([2.0 * ggx.alpha(), 2.0 * ggx.alpha() * ggx.view().z, 0.0, 0.0])
+    }
+
+    /// Whichever has the smaller error.
+    fn nearer(&self, one: Parameters, other: Parameters) -> Parameters {
+        let error = |parameters| self.target.error(&self.ltc(parameters));
+        if error(other) < error(one) { other } else { one }
     }
 
     fn descend(
         &self,
         start: Parameters,
-        offsets: [f64; 3],
+        offsets: &[f64],
         (iterations, tolerance): (u64, f64),
     ) -> Result<Parameters, Error> {
         let mut simplex = vec![start];
-        for (at, offset) in offsets.into_iter().enumerate().take(if self.symmetric { 1 } else { 3 }) {
+        for (at, offset) in offsets.iter().enumerate().take(if self.symmetric { 1 } else { offsets.len() }) {
             let mut vertex = start;
             vertex.0[at] += offset;
             simplex.push(vertex);
