@@ -142,11 +142,10 @@ mod tests {
                 let h = (v + l).normalize();
                 let tan2 = |z: f64| (1.0 - z * z) / (z * z);
                 let lambda = |z: f64| 0.5 * ((1.0 + alpha * alpha * tan2(z)).sqrt() - 1.0);
-                let d = 1.0
-                    / (PI * alpha * alpha * h.z.powi(4) * (1.0 + tan2(h.z) / (alpha * alpha)).powi(2));
+                let d =
+                    1.0 / (PI * alpha * alpha * h.z.powi(4) * (1.0 + tan2(h.z) / (alpha * alpha)).powi(2));
                 let density = d * h.z / (4.0 * v.dot(h));
-                let value =
-                    if l.z > 0.0 { d / (1.0 + lambda(v.z) + lambda(l.z)) / (4.0 * v.z) } else { 0.0 };
+                let value = if l.z > 0.0 { d / (1.0 + lambda(v.z) + lambda(l.z)) / (4.0 * v.z) } else { 0.0 };
                 let got = ggx.eval(l);
                 // Some dozen roundings on either side.
                 assert!((got.value - value).abs() <= 1e-13 * value, "{got:?} {value}");

@@ -175,3 +175,70 @@ fn quantiles(mut values: Vec<f64>) -> [f64; 4] {
     let rank = |share: f64| values[((share * values.len() as f64).ceil() as usize).max(1) - 1];
     [values[0], rank(0.5), rank(0.95), values[values.len() - 1]]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::ggx::table;
+
+    #[allow(clippy::declare_interior_mutable_const, reason = "a fresh flag at each use")]
+    const GO: AtomicBool = AtomicBool::new(false);
+
+    #[test]
+    fn rows_fitted_again_are_the_committed_ones() {
+        let fitter = Fitter::new(64);
+        let starts = fitter.normal_incidence(&GO).unwrap();
+        for roughness in [3, 27, 63] {
+            let row = fitter.row(roughness, starts[roughness], &|| (), &GO).unwrap();
+            let committed = &table().cells()[64 * roughness..][..64];
+            for (angle, ((cell, _), committed)) in row.iter().zip(committed).enumerate() {
+                // The same bits: all of it is IEEE arithmetic and libm.
+                assert_eq!(cell, committed, "{roughness} {angle}");
+            }
+        }
+    }
+
+    #[test]
+    fn threads_change_no_bit() {
+        let fit = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| ggx(7, &|| (), &GO).unwrap())
+        };
+        let (one, two) = (fit(1), fit(2));
+        assert_eq!(one, two);
+        assert_eq!(Table::parse(&one.csv()), Ok(two.table));
+    }
+
+    #[test]
+    fn every_cell_is_counted_and_a_raised_flag_ends_it() {
+        let count = std::sync::atomic::AtomicUsize::new(0);
+        let progress = || {
+            count.fetch_add(1, Ordering::Relaxed);
+        };
+        ggx(3, &progress, &GO).unwrap();
+        assert_eq!(count.into_inner(), 9);
+        assert!(matches!(ggx(3, &|| (), &AtomicBool::new(true)), Err(Stopped::Interrupted)));
+    }
+
+    #[test]
+    fn rough_and_smooth_ends() {
+        let fit = ggx(4, &|| (), &GO).unwrap();
+        for roughness in 0..4 {
+            let Cell { minv: [m00, m02, m20, m22], .. } = fit.table.cells()[4 * roughness];
+            assert_eq!((m00, m02, m20), (1.0, 0.0, 0.0));
+            assert!(m22 > 0.0);
+        }
+        // The smoothest lobe is twice as wide in angle as alpha, and keeps all light.
+        let smooth = fit.table.cells()[0];
+        assert!((smooth.minv[3] / 2e-5 - 1.0).abs() < 1e-4 && smooth.magnitude == 1.0, "{smooth:?}");
+        // Closed form at alpha = 1, where D is 1/pi and G2 is 2 z/(z + 1): the integral of z/(1 + z) over 0..1.
+        let rough = fit.table.cells()[12];
+        assert!((f64::from(rough.magnitude) - (1.0 - core::f64::consts::LN_2)).abs() < 1e-6, "{rough:?}");
+    }
+
+    #[test]
+    fn quantiles_are_nearest_ranks() {
+        assert_eq!(quantiles((1..=100).rev().map(f64::from).collect()), [1.0, 50.0, 95.0, 100.0]);
+        assert_eq!(quantiles(vec![7.0]), [7.0; 4]);
+    }
+}

@@ -23,7 +23,7 @@ const MIN_WIDTH: f64 = 1e-9;
 
 /// What turning the axis must take off the relative residual. Nearly a mirror's lobes look the same with any turn that
 /// their shear undoes; without this their matrices would be noise.
-const WORTH_TURNING: f64 = 1e-3;
+const WORTH_TURNING: f64 = 1e-4;
 
 /// m11, m22, m13 and m31 of [`Ltc::in_frame`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,7 +98,11 @@ impl Task<'_> {
             return Ok((only, only));
         }
         let straight = self.descend(first, &offsets[..3], FURTHER)?;
-        let turned = self.descend(straight, &offsets, FURTHER)?;
+        let mut turned = straight;
+        // The valley is flat where shear and turn nearly undo each other; a fresh simplex goes on where the last collapsed.
+        for _ in 0..2 {
+            turned = self.descend(turned, &offsets, FURTHER)?;
+        }
         let relative = |parameters| self.target.residual(&self.ltc(parameters)).relative;
         let worth = relative(straight) - relative(turned) > WORTH_TURNING;
         Ok((straight, if worth { turned } else { straight }))
@@ -124,16 +128,14 @@ impl Task<'_> {
         (iterations, tolerance): (u64, f64),
     ) -> Result<Parameters, Error> {
         let mut simplex = vec![start];
-        for (at, offset) in offsets.iter().enumerate().take(if self.symmetric { 1 } else { offsets.len() }) {
+        for (at, offset) in offsets.iter().enumerate().take(if self.symmetric { 1 } else { 4 }) {
             let mut vertex = start;
             vertex.0[at] += offset;
             simplex.push(vertex);
         }
         let solver = NelderMead::new(simplex).with_sd_tolerance(tolerance)?;
-        let result = Executor::new(self, solver)
-            .configure(|state| state.max_iters(iterations))
-            .timer(false)
-            .run()?;
+        let result =
+            Executor::new(self, solver).configure(|state| state.max_iters(iterations)).timer(false).run()?;
         Ok(self.allowed(result.state.get_best_param().copied().unwrap_or(start)))
     }
 }

@@ -168,8 +168,8 @@ impl Table {
     /// Bilinear interpolation in f64, cells at the ends included.
     pub fn lookup(&self, roughness: f64, cos_theta: f64) -> Values {
         let (i, u) = self.place(roughness);
-        // max before sqrt: cosines that rounding left above 1.
-        let (j, v) = self.place((1.0 - cos_theta).max(0.0).sqrt());
+        // Cosines that rounding left above 1 give NaN, which counts as 0.
+        let (j, v) = self.place((1.0 - cos_theta).sqrt());
         let row = |i: usize| {
             let first = self.cells[i * self.size + j].values();
             let second = self.cells[i * self.size + j + 1].values();
@@ -181,8 +181,9 @@ impl Table {
 
     /// The cell below a coordinate in 0..1 and the way to the next.
     fn place(&self, coordinate: f64) -> (usize, f64) {
-        // Not clamp: max takes NaN to 0.
-        let position = coordinate.max(0.0).min(1.0) * (self.size - 1) as f64;
+        // NaN is not above 0.
+        let inside = if coordinate > 0.0 { coordinate.min(1.0) } else { 0.0 };
+        let position = inside * (self.size - 1) as f64;
         let below = (position as usize).min(self.size - 2);
         (below, position - below as f64)
     }
