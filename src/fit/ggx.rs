@@ -144,7 +144,7 @@ mod tests {
                 let lambda = |z: f64| 0.5 * ((1.0 + alpha * alpha * tan2(z)).sqrt() - 1.0);
                 let d =
                     1.0 / (PI * alpha * alpha * h.z.powi(4) * (1.0 + tan2(h.z) / (alpha * alpha)).powi(2));
-                let density = d * h.z / (4.0 * v.dot(h));
+                let density = (d * h.z / (4.0 * v.dot(h))).abs();
                 let value = if l.z > 0.0 { d / (1.0 + lambda(v.z) + lambda(l.z)) / (4.0 * v.z) } else { 0.0 };
                 let got = ggx.eval(l);
                 // Some dozen roundings on either side.

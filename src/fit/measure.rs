@@ -10,7 +10,7 @@ use core::f64::consts::{PI, TAU};
 /// Strata a side of the error's sample sets, as published.
 const ERROR_STRATA: usize = 32;
 
-/// Angles of a whole turn, and heights at each, where the moments are evaluated. Magnitudes are then within 1e-6, or
+/// Angles of a whole turn, and heights at each, where the moments are evaluated. Magnitudes are then within 1e-5, or
 /// 5e-4 where smooth surfaces are seen at grazing angles (cosine below 0.3).
 const MOMENT_NODES: (usize, usize) = (64, 32);
 
@@ -267,7 +267,7 @@ mod tests {
             for angle in [0, 10, 30, 50, 60, 63] {
                 let ggx = Ggx::new(f64::from(roughness) / 63.0, cos_theta(angle, 64));
                 let (one, other) = (usual.moments(&ggx), finer.moments(&ggx));
-                let bound = if ggx.view().z >= 0.3 { 1e-6 } else { 5e-4 };
+                let bound = if ggx.view().z >= 0.3 { 1e-5 } else { 5e-4 };
                 assert!(
                     (one.magnitude - other.magnitude).abs() < bound,
                     "{roughness} {angle} {one:?} {other:?}"

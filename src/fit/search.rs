@@ -21,8 +21,8 @@ const OFFSET: f64 = 0.05;
 /// 2e-5 cos(1.57).
 const MIN_WIDTH: f64 = 1e-9;
 
-/// What turning the axis must take off the relative residual. Nearly a mirror's lobes look the same with any turn that
-/// their shear undoes; without this their matrices would be noise.
+/// What turning the axis must take off the relative residual. The lobes of smooth surfaces look the same
+/// with any turn that their shear undoes; without this their matrices would be noise.
 const WORTH_TURNING: f64 = 1e-4;
 
 /// m11, m22, m13 and m31 of [`Ltc::in_frame`].
@@ -89,15 +89,15 @@ impl Task<'_> {
     /// narrower tolerance: what narrow lobes and collapsed simplices need. Last one with m31 free, since the mean
     /// direction is not the best axis.
     pub(super) fn search(&self, start: Parameters) -> Result<(Parameters, Parameters), Error> {
-        let first = self.descend(self.nearer(start, self.mirror()), &[OFFSET; 3], PUBLISHED)?;
+        let free = if self.symmetric { 1 } else { 3 };
+        let first = self.descend(self.nearer(start, self.mirror()), &[OFFSET; 3][..free], PUBLISHED)?;
         let [m11, m22, ..] = first.0;
         // Shears are in units of the width along them.
         let offsets = [OFFSET * m11, OFFSET * m22, OFFSET * m11, OFFSET * m11];
+        let straight = self.descend(first, &offsets[..free], FURTHER)?;
         if self.symmetric {
-            let only = self.descend(first, &offsets[..1], FURTHER)?;
-            return Ok((only, only));
+            return Ok((straight, straight));
         }
-        let straight = self.descend(first, &offsets[..3], FURTHER)?;
         let mut turned = straight;
         // The valley is flat where shear and turn nearly undo each other; a fresh simplex goes on where the last collapsed.
         for _ in 0..2 {
@@ -121,6 +121,7 @@ impl Task<'_> {
         if error(other) < error(one) { other } else { one }
     }
 
+    /// One search over the leading parameters, as many as there are offsets of the first simplex.
     fn descend(
         &self,
         start: Parameters,
@@ -128,7 +129,7 @@ impl Task<'_> {
         (iterations, tolerance): (u64, f64),
     ) -> Result<Parameters, Error> {
         let mut simplex = vec![start];
-        for (at, offset) in offsets.iter().enumerate().take(if self.symmetric { 1 } else { 4 }) {
+        for (at, offset) in offsets.iter().enumerate() {
             let mut vertex = start;
             vertex.0[at] += offset;
             simplex.push(vertex);
