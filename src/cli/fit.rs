@@ -21,7 +21,6 @@ pub(super) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Material {
-    /// Linearly transformed cosines of isotropic GGX
     Ggx(Ggx),
 }
 

@@ -50,7 +50,7 @@ enum Verb {
     Bench(run::Arguments),
     /// Evaluate your own configurations, by oracle and variants, CSV to CSV
     Eval(eval::Arguments),
-    /// Fit tables that shaders sample: linearly transformed cosines of a material
+    #[command(about = "Fit tables that shaders sample: linearly transformed cosines of a material")]
     Fit(fit::Arguments),
 }
 
