@@ -72,7 +72,9 @@ enum Verb {
     /// with the columns oracle.<column> (17 digits) and <variant>.<column> (9 digits), which read back to the same
     /// bits. A mistake anywhere in the input leaves no output at all.
     Eval(eval::Arguments),
-    #[command(about = "Fit tables that shaders sample: linearly transformed cosines of a material")]
+    /// Fit tables that shaders sample
+    ///
+    /// One material so far; 'rootq fit ggx --help' says what its table holds.
     Fit(fit::Arguments),
 }
 

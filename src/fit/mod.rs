@@ -3,12 +3,34 @@
 //! The procedure is the one published with Heitz, Dupuy, Hill and Neubelt, "Real-Time Polygonal-Light Shading with
 //! Linearly Transformed Cosines" (2016): a square table over roughness and sqrt(1 - cos theta); in each cell the lobe's
 //! magnitude, Fresnel term and mean direction by stratified sampling; then m11, m22 and m13 by Nelder-Mead on the L3
-//! error, started from the neighbour's result. What differs is stated where it does: `measure` takes more samples for the
-//! moments, `search` searches once more from the first result.
+//! error, started from the neighbour's result. What differs is stated where it does: `measure` integrates the moments more
+//! exactly, `search` goes on from the published search's result and lets the axis turn.
 //!
 //! Normal incidence is one chain from rough to smooth; from each of its cells a row towards grazing angles starts. Rows do
 //! not depend on each other, so threads change no bit; neither does the platform, since transcendental functions come
 //! from `libm`.
+//!
+//! `rootq fit ggx --out data/ggx.csv` made the embedded table, in 16 s of processor time. Its residuals under the published
+//! measure (the integral of |GGX - LTC|^3 from 2 x 32 x 32 samples, [`Residual::error`]) next to those of the table that
+//! the authors published (in f32, as shaders have it), each with its own magnitudes:
+//!
+//! | table     | min     | median | p95  | max    |
+//! |-----------|---------|--------|------|--------|
+//! | this      | 9.5e-11 | 6.1e-6 | 2.8  | 3.6e15 |
+//! | published | 3.6e-9  | 3.5e-5 | 66   | 8.9e22 |
+//!
+//! relative to the L3 norm of GGX ([`Residual::relative`]):
+//!
+//! | table     | min     | median | p95  | max  |
+//! |-----------|---------|--------|------|------|
+//! | this      | 3.8e-8  | 0.029  | 0.20 | 0.41 |
+//! | published | 3.8e-8  | 0.042  | 0.29 | 0.86 |
+//!
+//! Given the same magnitude, no cell is more than 1.6 % worse than the published one, the median cell's error is a quarter.
+//! With their own, some published cells are nearer, up to 39 times at normal incidence around roughness 23/63: a magnitude
+//! that misses the tail, as theirs do by up to 0.07, is easier to fit. On independent 256 x 256 strata seven grazing cells
+//! of roughness 60/63 and more are 4 % to 59 % worse, which is how much 32 strata leave open there; the statistics are the
+//! same.
 
 mod ggx;
 mod ltc;
@@ -119,9 +141,10 @@ impl Fitter {
                 if !symmetric {
                     (parameters, best) = task.search(parameters).map_err(Stopped::Optimiser)?;
                 }
-                let ltc = task.ltc(best);
+                let cell = Cell::new(task.ltc(best).minv(), magnitude, fresnel);
+                // Of what the table holds: rounding to f32 is part of the residual.
+                let ltc = Ltc::new(cell.matrix().inverse(), f64::from(cell.magnitude));
                 progress();
-                let cell = Cell::new(ltc.minv(), magnitude, fresnel);
                 Ok((cell, target.residual(&ltc)))
             })
             .collect()

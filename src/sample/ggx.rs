@@ -2,7 +2,7 @@
 //!
 //! `data/ggx.csv` holds it: 64 x 64 cells over roughness (alpha = roughness^2) and sqrt(1 - cos theta), each the inverse
 //! matrix with a middle element of 1, the magnitude (directional albedo without Fresnel) and the Schlick-Fresnel term.
-//! Its first lines say which command made it and how well it fits.
+//! `rootq fit ggx --out data/ggx.csv` made it; its first lines say how well it fits, and `fit` how that compares.
 
 use std::sync::LazyLock;
 
@@ -54,6 +54,11 @@ impl Cell {
         Cell { minv: elements.map(|e| e as f32), magnitude: magnitude as f32, fresnel: fresnel as f32 }
     }
 
+    /// The inverse matrix, its middle element 1.
+    pub fn matrix(&self) -> DMat3 {
+        matrix(self.minv.map(f64::from))
+    }
+
     /// The values in the order of [`COLUMNS`], after the two indices.
     pub fn values(&self) -> [f32; 6] {
         let [m00, m02, m20, m22] = self.minv;
@@ -72,7 +77,7 @@ impl Values {
     /// The inverse matrix, its middle element 1.
     pub fn minv(&self) -> DMat3 {
         let [m00, m02, m20, m22, ..] = self.values;
-        DMat3::from_cols_array(&[m00, 0.0, m02, 0.0, 1.0, 0.0, m20, 0.0, m22])
+        matrix([m00, m02, m20, m22])
     }
 
     /// See [`Cell::magnitude`].
@@ -187,6 +192,10 @@ impl Table {
         let below = (position as usize).min(self.size - 2);
         (below, position - below as f64)
     }
+}
+
+fn matrix([m00, m02, m20, m22]: [f64; 4]) -> DMat3 {
+    DMat3::from_cols_array(&[m00, 0.0, m02, 0.0, 1.0, 0.0, m20, 0.0, m22])
 }
 
 /// Exact at both ends.
