@@ -1,6 +1,11 @@
-//! Pure mathematics: spacing of floating-point formats, exact sums, integrals of spheres.
+//! Pure mathematics: spacing of floating-point formats, exact sums and products, quadrature, cubics, and the
+//! integrals that several families share.
 
 pub mod binary16;
 pub mod clipped_sphere;
+pub mod cubic;
 pub mod exact;
+pub mod gauss_legendre;
+pub mod line_integral;
+pub mod products;
 pub mod spacing;
