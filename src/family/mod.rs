@@ -2,6 +2,7 @@
 
 mod edge_integral;
 mod ellipse_axes;
+mod ltc_polygon;
 mod problem;
 
 pub use problem::{
@@ -9,7 +10,7 @@ pub use problem::{
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] = &[&edge_integral::EdgeIntegral, &ellipse_axes::EllipseAxes];
+pub static FAMILIES: &[&dyn Problem] = &[&edge_integral::EdgeIntegral, &ellipse_axes::EllipseAxes, &ltc_polygon::LtcPolygon];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {
