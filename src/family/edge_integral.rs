@@ -250,8 +250,10 @@ mod tests {
     /// The line integral of p x dp / (2 pi |p|^2) along the chord, by Gauss's rule of 4 points on pieces that shrink
     /// towards the chord's point closest to the origin.
     fn quadrature(a: DVec3, b: DVec3) -> DVec3 {
-        const NODES: [(f64, f64); 2] =
-            [(0.339_981_043_584_856_26, 0.652_145_154_862_546_1), (0.861_136_311_594_052_6, 0.347_854_845_137_453_85)];
+        const NODES: [(f64, f64); 2] = [
+            (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
+            (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
+        ];
         let (a, b) = (a.normalize(), b.normalize());
         let chord = b - a;
         let integrand = |t: f64| 1.0 / (a + t * chord).length_squared();
@@ -264,7 +266,8 @@ mod tests {
                 let width = (to - from) / 8.0;
                 let (half, middle) = (0.5 * width, from + (f64::from(part) + 0.5) * width);
                 for (node, weight) in NODES {
-                    sum += half * weight * (integrand(middle - half * node) + integrand(middle + half * node));
+                    sum +=
+                        half * weight * (integrand(middle - half * node) + integrand(middle + half * node));
                 }
             }
             from = to;

@@ -99,9 +99,8 @@ impl Problem for LtcPolygon {
 
     fn oracle(&self, input: &[f32], truth: &mut Truth) {
         let mut found = shaded(transformed_f64(input));
-        let certain = |found: &Irradiance<4>| {
-            !found.touched && found.bound <= ACCURACY * found.value.abs().max(FLOOR)
-        };
+        let certain =
+            |found: &Irradiance<4>| !found.touched && found.bound <= ACCURACY * found.value.abs().max(FLOOR);
         if !certain(&found) {
             truth.escalate();
             found = shaded(transformed(input));
@@ -126,8 +125,11 @@ impl Problem for LtcPolygon {
 /// The irradiance of transformed corners, its bound widened by that of the corners: one rounding of each component.
 fn shaded<T: Real>(corners: [[T; 3]; 4]) -> Irradiance<4> {
     // By a power of two, exactly: no square leaves f64's range.
-    let largest =
-        corners.iter().flatten().fold(0.0f64, |largest, c| largest.max(c.to_f64().abs())).clamp(1e-200, 1e200);
+    let largest = corners
+        .iter()
+        .flatten()
+        .fold(0.0f64, |largest, c| largest.max(c.to_f64().abs()))
+        .clamp(1e-200, 1e200);
     let scale = T::from(libm::exp2(-libm::floor(libm::log2(largest))));
     let corners = corners.map(|corner| corner.map(|c| c * scale));
     let mut found = irradiance(&corners);

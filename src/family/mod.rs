@@ -10,7 +10,8 @@ pub use problem::{
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] = &[&edge_integral::EdgeIntegral, &ellipse_axes::EllipseAxes, &ltc_polygon::LtcPolygon];
+pub static FAMILIES: &[&dyn Problem] =
+    &[&edge_integral::EdgeIntegral, &ellipse_axes::EllipseAxes, &ltc_polygon::LtcPolygon];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {

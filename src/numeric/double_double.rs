@@ -115,8 +115,7 @@ static ARC_TANGENTS: LazyLock<[DoubleDouble; 65]> = LazyLock::new(|| {
     let mut table = [DoubleDouble::from(0.0); 65];
     for k in 1..65 {
         let number = k as f64;
-        let difference =
-            DoubleDouble::from(64.0) / DoubleDouble::from(4096.0 + number * (number - 1.0));
+        let difference = DoubleDouble::from(64.0) / DoubleDouble::from(4096.0 + number * (number - 1.0));
         table[k] = table[k - 1] + difference.atan_series();
     }
     table
@@ -146,11 +145,8 @@ impl Real for DoubleDouble {
             return DoubleDouble::from(0.0);
         }
         let half = DoubleDouble::new(0.5 * PI.high, 0.5 * PI.low);
-        let quadrant = if up.high > right.high {
-            half - (right / up).atan_unit()
-        } else {
-            (up / right).atan_unit()
-        };
+        let quadrant =
+            if up.high > right.high { half - (right / up).atan_unit() } else { (up / right).atan_unit() };
         let upper = if x.high < 0.0 { PI - quadrant } else { quadrant };
         if self.high < 0.0 { -upper } else { upper }
     }
@@ -228,8 +224,14 @@ mod tests {
         let (a, b) = (one.atan2(DoubleDouble::from(5.0)), one.atan2(DoubleDouble::from(239.0)));
         let quarter = DoubleDouble::from(4.0) * a - b;
         assert!(roundings(quarter, DoubleDouble::TAU / DoubleDouble::from(8.0)) < 8.0);
-        assert!(roundings(one.atan2(-one), DoubleDouble::from(3.0) * DoubleDouble::TAU / DoubleDouble::from(8.0)) < 2.0);
-        assert_eq!(DoubleDouble::from(-1.0).atan2(DoubleDouble::from(0.0)).high, -core::f64::consts::FRAC_PI_2);
+        assert!(
+            roundings(one.atan2(-one), DoubleDouble::from(3.0) * DoubleDouble::TAU / DoubleDouble::from(8.0))
+                < 2.0
+        );
+        assert_eq!(
+            DoubleDouble::from(-1.0).atan2(DoubleDouble::from(0.0)).high,
+            -core::f64::consts::FRAC_PI_2
+        );
     }
 
     proptest! {

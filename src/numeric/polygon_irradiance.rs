@@ -222,7 +222,11 @@ fn edge_gradient(normal: DVec3, sine: f64, theta: f64, u: DVec3, w: DVec3) -> (D
 /// The same for parallel ends: the edge is (u x w).z / (2 pi |u||w|) to first order.
 fn parallel_gradient(u: DVec3, w: DVec3) -> (DVec3, DVec3) {
     let scale = core::f64::consts::TAU * u.length() * w.length();
-    if scale > 0.0 { (w.cross(DVec3::Z) / scale, DVec3::Z.cross(u) / scale) } else { (DVec3::ZERO, DVec3::ZERO) }
+    if scale > 0.0 {
+        (w.cross(DVec3::Z) / scale, DVec3::Z.cross(u) / scale)
+    } else {
+        (DVec3::ZERO, DVec3::ZERO)
+    }
 }
 
 fn difference<T: Real>(a: Vector<T>, b: Vector<T>) -> Vector<T> {

@@ -93,7 +93,8 @@ pub(super) const ALL: &[Scenario] = &[
         draw: |draw, row| {
             let minv = any_material(draw);
             let frame = draw.frame();
-            let (x, y) = (draw.log_uniform(0.5, 5.0) * frame.x_axis, draw.log_uniform(0.5, 5.0) * frame.y_axis);
+            let (x, y) =
+                (draw.log_uniform(0.5, 5.0) * frame.x_axis, draw.log_uniform(0.5, 5.0) * frame.y_axis);
             let height = draw.log_uniform(0.01, 0.5) * x.length().min(y.length());
             let centre =
                 height * frame.z_axis + draw.uniform(-0.95, 0.95) * x + draw.uniform(-0.95, 0.95) * y;
@@ -170,7 +171,11 @@ fn edge(draw: &mut Draw, row: &mut [f32]) {
             store(row, minv, corners(i * across + j * up, width * across, height * up));
         }
         // Two corners exactly on the horizon, or all four of them below it.
-        7 => store(row, minv, [a, b, c, d].map(|p| DVec3::new(p.x, p.y, if p.z > centre.z { p.z } else { 0.0 }))),
+        7 => store(
+            row,
+            minv,
+            [a, b, c, d].map(|p| DVec3::new(p.x, p.y, if p.z > centre.z { p.z } else { 0.0 })),
+        ),
         8 => store(row, DMat3::IDENTITY, [a, b, c, d].map(|p| DVec3::new(p.x, p.y, -p.z.abs()))),
         // The whole light at another scale, and Minv at yet another.
         9 | 10 => {
@@ -184,8 +189,12 @@ fn edge(draw: &mut Draw, row: &mut [f32]) {
                 let flat = DMat3::from_cols(minv.x_axis, minv.x_axis, minv.z_axis);
                 store(row, flat, [a, b, c, d]);
             } else {
-                let mut size = [draw.log_uniform(0.1, 10.0), draw.log_uniform(0.1, 10.0), draw.log_uniform(0.1, 10.0)];
-                size[draw.below(3) as usize] = f64::from(landmarks::near_landmark(draw));
+                let mut size =
+                    [draw.log_uniform(0.1, 10.0), draw.log_uniform(0.1, 10.0), draw.log_uniform(0.1, 10.0)];
+                // No subnormals: a device may flush them, and an infinite plane overhead would be at the horizon.
+                let landmark = landmarks::near_landmark(draw);
+                size[draw.below(3) as usize] =
+                    if landmark.is_subnormal() { 0.0 } else { f64::from(landmark) };
                 let [x, y, height] = size;
                 store(row, DMat3::IDENTITY, corners(DVec3::Z * height, DVec3::X * x, DVec3::Y * y));
             }

@@ -35,7 +35,11 @@ fn every_truth_is_certified_and_a_share() {
             escalated += u32::from(truth.escalated());
             touched += u32::from(truth.sensitivities()[0].is_infinite());
         });
-        println!("{}: {escalated} escalated, {touched} touched, worst {worst}, {:?}", scenario.name, start.elapsed() / 20_000);
+        println!(
+            "{}: {escalated} escalated, {touched} touched, worst {worst}, {:?}",
+            scenario.name,
+            start.elapsed() / 20_000
+        );
     }
 }
 
@@ -139,7 +143,8 @@ fn sensitivities_cover_real_changes() {
             let changed: Vec<f32> = row
                 .iter()
                 .map(|v| {
-                    bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                    bits =
+                        bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
                     let sign = if bits >> 63 == 0 { 1.0 } else { -1.0 };
                     (f64::from(*v) * (1.0 + sign * step)) as f32
                 })
