@@ -93,8 +93,8 @@ float horizon_stable(float c, float s)
 {
     // Beyond 1 by a rounding, s would leave r^2 > 0 where q^2 = 0.
     s = clamp(s, 0.0, 1.0);
-    float a = abs(c);
-    float whole = s * max(c, 0.0);
+    float a = min(abs(c), 1.0);
+    float whole = c > 0.0 ? s * a : 0.0;
     // c^2 from exact partial products: s - c^2 good to 2^-35 c^2.
     float high = uintBitsToFloat(floatBitsToUint(a) & 0xfffff000u);
     float r2 = (s - high * high) - (a - high) * (a + high);

@@ -6,10 +6,6 @@ source  = "Lagarde & de Rousiers 2014"
 name = "sphere_analytic"
 
 [[variant]]
-name = "sphere_analytic_precise"
-precise = true
-
-[[variant]]
 name = "sphere_analytic_clamped"
 summary = "sphere_analytic behind the clamps found in production: cosine to -1..1, squared sine at most 0.999"
 defines = { CLAMPED = 1 }

@@ -4,15 +4,11 @@ source  = "ours, from Snyder 1996"
 
 [[variant]]
 name = "stable"
-
-[[variant]]
-name = "stable_precise"
-precise = true
 ---*/
 
 // The irradiance as the whole sphere's plus what lies beyond the horizon, a product of non-negative factors.
 //
-// Domain: all; s is clamped to 0..1, and c may lie beyond its ends by a rounding.
+// Domain: all; both inputs beyond their ends count as the ends.
 // Source: ours; horizon_stable states the form.
 // Bound: 16 u relative, u = 2^-24, where c >= 0; below the horizon 16 u/(1 - |c|), plus the rounding of 1 - s for the
 // largest spheres.

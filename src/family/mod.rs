@@ -1,7 +1,10 @@
 //! The problems: one file each, and the slice that lists them.
 
+mod cone_axes;
 mod edge_integral;
 mod ellipse_axes;
+mod horizon_sphere;
+mod ltc_line;
 mod ltc_polygon;
 mod problem;
 
@@ -10,8 +13,14 @@ pub use problem::{
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] =
-    &[&edge_integral::EdgeIntegral, &ellipse_axes::EllipseAxes, &ltc_polygon::LtcPolygon];
+pub static FAMILIES: &[&dyn Problem] = &[
+    &cone_axes::ConeAxes,
+    &edge_integral::EdgeIntegral,
+    &ellipse_axes::EllipseAxes,
+    &horizon_sphere::HorizonSphere,
+    &ltc_line::LtcLine,
+    &ltc_polygon::LtcPolygon,
+];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {
