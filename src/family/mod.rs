@@ -3,13 +3,14 @@
 mod cone_axes;
 mod ellipse_axes;
 mod problem;
+mod sym3_eigen;
 
 pub use problem::{
     CERTIFIED, Landmark, MAX_COMPONENTS, MAX_OUTPUTS, Output, Problem, Quantity, Relation, Scenario, Truth,
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] = &[&cone_axes::ConeAxes, &ellipse_axes::EllipseAxes];
+pub static FAMILIES: &[&dyn Problem] = &[&cone_axes::ConeAxes, &ellipse_axes::EllipseAxes, &sym3_eigen::Sym3Eigen];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {
