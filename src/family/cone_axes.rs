@@ -171,7 +171,8 @@ impl Problem for ConeAxes {
         let mut axis_change = 0.0;
         let mut tangent_changes = [0.0; 2];
         for change in Change::of_each_input(weights, far) {
-            let turned = DVec3::new(along.x * change.axis[0], along.y * change.axis[1], along.z * change.axis[2]);
+            let turned =
+                DVec3::new(along.x * change.axis[0], along.y * change.axis[1], along.z * change.axis[2]);
             axis_change += turned.cross(axis).length() / along.length();
             let of_tangents = cone.tangent_changes(weights, lambda, &change);
             for (sum, change) in tangent_changes.iter_mut().zip(of_tangents) {
@@ -426,7 +427,10 @@ mod tests {
                 // Rounding of the rim's points, through the inverse.
                 let slack = 1e-13 * condition * (1.0 + tan_major * tan_major);
                 for check in &rows[3..] {
-                    assert!((check.dot(conic) - 1.0).abs() <= slack * conic.length(), "{row:?} {check} {conic}");
+                    assert!(
+                        (check.dot(conic) - 1.0).abs() <= slack * conic.length(),
+                        "{row:?} {check} {conic}"
+                    );
                 }
                 let (mean, half) = (0.5 * (conic.x + conic.z), 0.5 * (conic.x - conic.z));
                 let spread = libm::hypot(half, conic.y);

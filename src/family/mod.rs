@@ -10,7 +10,8 @@ pub use problem::{
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] = &[&cone_axes::ConeAxes, &ellipse_axes::EllipseAxes, &sym3_eigen::Sym3Eigen];
+pub static FAMILIES: &[&dyn Problem] =
+    &[&cone_axes::ConeAxes, &ellipse_axes::EllipseAxes, &sym3_eigen::Sym3Eigen];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {

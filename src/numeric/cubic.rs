@@ -16,7 +16,8 @@ pub const POSITIVE_ROOT_BOUND: f64 = 16.0 * EPS;
 /// descends.
 pub fn positive_root(c2: f64, c1: f64, c0: f64) -> f64 {
     let of_c2 = (-c2).max(0.0);
-    let of_c1 = if c1 < 0.0 { libm::sqrt(-c1).min(if c2 > 0.0 { -c1 / c2 } else { f64::INFINITY }) } else { 0.0 };
+    let of_c1 =
+        if c1 < 0.0 { libm::sqrt(-c1).min(if c2 > 0.0 { -c1 / c2 } else { f64::INFINITY }) } else { 0.0 };
     let mut of_c0 = libm::cbrt(c0);
     if c2 > 0.0 {
         of_c0 = of_c0.min(libm::sqrt(c0 / c2));

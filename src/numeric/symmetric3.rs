@@ -48,11 +48,7 @@ impl Symmetric3 {
     pub fn change(&self, q: DVec3, w: DVec3) -> f64 {
         let ([a, b, c], [f, e, d]) = (self.diagonal.map(f64::abs), self.opposite.map(f64::abs));
         let (q, w) = (q.abs(), w.abs());
-        q.dot(DVec3::new(
-            DVec3::new(a, d, e).dot(w),
-            DVec3::new(d, b, f).dot(w),
-            DVec3::new(e, f, c).dot(w),
-        ))
+        q.dot(DVec3::new(DVec3::new(a, d, e).dot(w), DVec3::new(d, b, f).dot(w), DVec3::new(e, f, c).dot(w)))
     }
 
     /// The sum of the products of two eigenvalues, rounded once.
@@ -96,8 +92,7 @@ impl Symmetric3 {
                 d[q] += t * apq;
                 o[r] = 0.0;
                 (o[q], o[p]) = (c * o[q] - s * o[p], s * o[q] + c * o[p]);
-                (vectors[p], vectors[q]) =
-                    (c * vectors[p] - s * vectors[q], s * vectors[p] + c * vectors[q]);
+                (vectors[p], vectors[q]) = (c * vectors[p] - s * vectors[q], s * vectors[p] + c * vectors[q]);
             }
         }
         let bound = if self.opposite == [0.0; 3] { 0.0 } else { JACOBI_BOUND * self.norm() };
@@ -191,8 +186,7 @@ fn tangent(app: f64, aqq: f64, apq: f64) -> f64 {
 
 impl Eigensystem {
     fn sorted(values: [f64; 3], vectors: [DVec3; 3], bound: f64) -> Self {
-        let mut system =
-            Eigensystem { values, vectors, value_bounds: [bound; 3], vector_bounds: [0.0; 3] };
+        let mut system = Eigensystem { values, vectors, value_bounds: [bound; 3], vector_bounds: [0.0; 3] };
         system.sort();
         for k in 0..3 {
             let gap = system.gap(k);
@@ -219,7 +213,10 @@ impl Eigensystem {
 
     /// The distance from value `k` to the nearest other.
     pub fn gap(&self, k: usize) -> f64 {
-        (0..3).filter(|j| *j != k).map(|j| (self.values[k] - self.values[j]).abs()).fold(f64::INFINITY, f64::min)
+        (0..3)
+            .filter(|j| *j != k)
+            .map(|j| (self.values[k] - self.values[j]).abs())
+            .fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -240,7 +237,9 @@ mod tests {
         assert_eq!(rank_one.values[..2], [0.0, 0.0]);
         assert!((rank_one.values[2] - 14.0).abs() <= 28.0 * EPS);
         let laplacian = matrix([-2.0, -2.0, -2.0, 1.0, 1.0, 1.0]).jacobi_twofold();
-        assert!((laplacian.values[0] + 3.0).abs() <= 6.0 * EPS && (laplacian.values[1] + 3.0).abs() <= 6.0 * EPS);
+        assert!(
+            (laplacian.values[0] + 3.0).abs() <= 6.0 * EPS && (laplacian.values[1] + 3.0).abs() <= 6.0 * EPS
+        );
         assert_eq!(laplacian.values[2], 0.0);
         // Tridiagonal 2, -1: 2 and 2 -+ sqrt(2).
         let chain = matrix([2.0, 2.0, 2.0, -1.0, 0.0, -1.0]).jacobi_twofold();
