@@ -5,7 +5,9 @@ mod edge_integral;
 mod ellipse_axes;
 mod horizon_sphere;
 mod ltc_line;
+mod ltc_polygon;
 mod problem;
+mod sym3_eigen;
 
 pub use problem::{
     CERTIFIED, Landmark, MAX_COMPONENTS, MAX_OUTPUTS, Output, Problem, Quantity, Relation, Scenario, Truth,
@@ -18,6 +20,8 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &ellipse_axes::EllipseAxes,
     &horizon_sphere::HorizonSphere,
     &ltc_line::LtcLine,
+    &ltc_polygon::LtcPolygon,
+    &sym3_eigen::Sym3Eigen,
 ];
 
 /// The family of that name.
