@@ -8,9 +8,9 @@ mod drivers;
 mod glsl;
 
 use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
-use rootq::catalog::{Field, Kernel, Signature, Type, Variant};
+use rootq::catalog::{Field, Kernel, Signature, TableBinding, TableForm, Type, Variant};
 use rootq::device::vulkan::{Instance, Options, VulkanDevice};
 use rootq::device::{Clock, Device, Error, Facts, Outputs};
 use rootq::numeric::binary16;
@@ -460,6 +460,48 @@ fn a_sampled_image_is_bilinear() {
             }
             println!("worst difference from bilinear: {worst:e}");
             assert!(worst <= allowed, "{worst:e} > {allowed:e}");
+        });
+    }
+}
+
+/// A buffer and an image of four channels beside each other, neither square nor of an even number of texels.
+#[test]
+fn tables_of_four_channels_keep_their_order() {
+    for options in [Options::default(), staged(), Options { half_images: true, ..staged() }] {
+        on_every_device(options, |device| {
+            let (width, height) = (5, 3);
+            // Whole numbers below 2048: exact as halves too.
+            let texels: Arc<[f32]> = (0..width * height * 4).map(|value| value as f32).collect();
+            let table = |name, binding, form| TableBinding {
+                name,
+                binding,
+                form,
+                width,
+                height,
+                channels: 4,
+                texels: Arc::clone(&texels),
+            };
+            let spirv = glsl::compile_reading(
+                "layout(std430, set = 1, binding = 2) readonly buffer Texels { vec4 texels[]; };
+                layout(set = 1, binding = 3) uniform sampler2D image;",
+                "vec2 at = vec2(i[k], i[stride + k]);
+                vec4 a = texels[int(at.y) * 5 + int(at.x)];
+                vec4 b = textureLod(image, (at + 0.5) / vec2(5.0, 3.0), 0.0);
+                for (int c = 0; c < 4; ++c) { o[c * stride + k] = a[c]; o[(c + 4) * stride + k] = b[c]; }",
+            );
+            let tables = vec![table("texels", 2, TableForm::Buffer), table("image", 3, TableForm::Image)];
+            let kernel = Kernel { id: "test/tables".to_owned(), spirv, inputs: 2, outputs: 8, tables };
+            let rows: Vec<f32> =
+                (0..height).flat_map(|y| (0..width).flat_map(move |x| [x as f32, y as f32])).collect();
+            let outputs = evaluate(device, &kernel, &rows);
+            for (texel, expected) in texels.chunks_exact(4).enumerate() {
+                for (channel, expected) in expected.iter().enumerate() {
+                    assert_eq!(outputs.column(channel)[texel], *expected);
+                    // The centre's coordinate is rounded: a weight of 2^-20 for neighbours that differ by up to 20.
+                    let sampled = outputs.column(channel + 4)[texel];
+                    assert!((sampled - expected).abs() < 1e-4, "{sampled} for {expected}");
+                }
+            }
         });
     }
 }

@@ -85,8 +85,8 @@ float horizon_stable(float c, float s)
     s = clamp(s, 0.0, 1.0);
     float a = min(abs(c), 1.0);
     float whole = c > 0.0 ? s * a : 0.0;
-    // c^2 from exact partial products: where s - c^2 cancels each difference but the last is exact, and r^2 is good to a
-    // rounding of itself.
+    // c^2 from exact partial products: where s - c^2 cancels each difference but the last is exact, and r^2 is good to
+    // a rounding of itself.
     float high = uintBitsToFloat(floatBitsToUint(a) & 0xfffff000u);
     float low = a - high;
     precise float r2 = s - high * high;

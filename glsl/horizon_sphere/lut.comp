@@ -24,8 +24,8 @@ defines = { NO_HALF_TEXEL = 1 }
 // error, since the table holds the ratio to the form factor.
 // Source: Heitz & Hill, "Real-Time Line- and Disk-Light Shading with Linearly Transformed Cosines", 2017.
 // Bound: 0.020 absolute, in the last row of texels: the irradiance has a root of 1 - s in it, which no table in s
-// follows; below s = 0.98 it is 1.4e-3. NO_HALF_TEXEL, as ports without the scale and bias have it, shifts by up to half
-// a texel.
+// follows; below s = 0.98 it is 1.4e-3. NO_HALF_TEXEL, as ports without the scale and bias have it, shifts by up to
+// half a texel.
 // Measured: failed, and worst absolute error where all are finite; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
 //                             scene        grazing        horizon          small      near_full           edge
 //   lut              0.213 % 2.0e-2 0.252 % 2.0e-20.0566 % 8.4e-3       0 5.9e-7  36.5 % 2.0e-2 0.207 % 2.0e-2

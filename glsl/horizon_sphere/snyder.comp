@@ -11,7 +11,8 @@ summary = "snyder with every radicand and arcsine argument saturated, and the re
 defines = { SATURATED = 1 }
 ---*/
 
-// The closed form as first given: omega the angle to the normal, sigma the half angle, gamma = asin(cos sigma/sin omega),
+// The closed form as first given. With omega the angle to the normal, sigma the half angle,
+// gamma = asin(cos sigma/sin omega),
 //
 //     G = pi/2 - gamma + sin gamma cos gamma - 2 sin omega cos sigma cos gamma
 //     H = cos omega (cos gamma sqrt(sin^2 sigma - cos^2 gamma) + sin^2 sigma asin(cos gamma/sin sigma))

@@ -287,4 +287,28 @@ mod tests {
         let message = error.to_string();
         assert!(message.contains("must be 'ScaledSum scaled_sum(mat3 m, vec3 v)'"), "{message}");
     }
+
+    /// No built-in table has four channels yet, so their declarations are compiled here.
+    #[test]
+    fn tables_of_either_shape_and_form_compile() {
+        for form in [TableForm::Buffer, TableForm::Image] {
+            let table = |name, binding, channels| TableBinding {
+                name,
+                binding,
+                form,
+                width: 8,
+                height: 4,
+                channels,
+                texels: std::sync::Arc::from(vec![0.0; 32 * channels as usize]),
+            };
+            let text = format!(
+                "{}{}ScaledSum scaled_sum(mat3 m, vec3 v) {{\n    return ScaledSum(grey_at(v.xy) * v, quad_at(v.yz).w);\n}}\n{}",
+                generate::prologue(&signature(), [].into_iter()),
+                generate::tables(&[table("grey", 2, 1), table("quad", 3, 4)]),
+                generate::epilogue(&signature()),
+            );
+            let spirv = glslang::compile(&text, &|_, _| None, false).unwrap();
+            assert!(reflect::facts(&spirv).unwrap().words > 100);
+        }
+    }
 }

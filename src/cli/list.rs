@@ -86,6 +86,8 @@ fn variant(variant: &Variant) -> Value {
         "source": variant.source,
         "tried": variant.tried,
         "precise": variant.precise,
+        "tables": variant.tables.iter().map(|(name, form)| (name.as_str().to_owned(), json!(form)))
+            .collect::<serde_json::Map<String, Value>>(),
         "defines": variant.defines.iter().map(|(name, value)| (name.clone(), value.to_string().into()))
             .collect::<serde_json::Map<String, Value>>(),
     })

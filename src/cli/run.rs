@@ -171,6 +171,7 @@ fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
             source: variant.source.clone(),
             tried: variant.tried.clone(),
             precise: variant.precise,
+            tables: variant.tables.iter().map(|(name, form)| (name.as_str().to_owned(), *form)).collect(),
             spirv: facts,
             skipped,
             results: Vec::new(),

@@ -118,6 +118,9 @@ pub struct Variant {
     pub tried: Option<String>,
     /// Decorated NoContraction throughout by the harness.
     pub precise: bool,
+    /// Built-in tables that it reads, and how; the program's revision says what is in them.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
+    pub tables: BTreeMap<String, catalog::TableForm>,
     pub spirv: catalog::Facts,
     /// Why this device could not run it; then there are no results.
     #[serde(skip_serializing_if = "Option::is_none", default)]

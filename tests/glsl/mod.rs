@@ -8,11 +8,22 @@ use glslang_sys as gl;
 
 /// Compiles the body of a kernel. It sees `k`, its configuration; `stride`; and the columns `i` and `o`.
 pub(crate) fn compile(body: &str) -> Vec<u32> {
-    compile_with("uint first, count, stride;", body)
+    compile_text(CONSTANTS, "", body)
 }
 
 /// As [`compile`], with push constants of the caller's own.
 pub(crate) fn compile_with(constants: &str, body: &str) -> Vec<u32> {
+    compile_text(constants, "", body)
+}
+
+/// As [`compile`], with more resources declared.
+pub(crate) fn compile_reading(declarations: &str, body: &str) -> Vec<u32> {
+    compile_text(CONSTANTS, declarations, body)
+}
+
+const CONSTANTS: &str = "uint first, count, stride;";
+
+fn compile_text(constants: &str, declarations: &str, body: &str) -> Vec<u32> {
     static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
     let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
     let source = format!(
@@ -21,6 +32,7 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Inputs {{ float i[]; }};
 layout(std430, set = 0, binding = 1) buffer Outputs {{ float o[]; }};
 layout(push_constant) uniform Range {{ {constants} }};
+{declarations}
 void main() {{
     if (gl_GlobalInvocationID.x >= count) return;
     uint k = first + gl_GlobalInvocationID.x;
