@@ -1,7 +1,10 @@
 //! The problems: one file each, and the slice that lists them.
 
 mod cone_axes;
+mod edge_integral;
 mod ellipse_axes;
+mod horizon_sphere;
+mod ltc_line;
 mod problem;
 mod sym3_eigen;
 
@@ -10,8 +13,14 @@ pub use problem::{
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] =
-    &[&cone_axes::ConeAxes, &ellipse_axes::EllipseAxes, &sym3_eigen::Sym3Eigen];
+pub static FAMILIES: &[&dyn Problem] = &[
+    &cone_axes::ConeAxes,
+    &edge_integral::EdgeIntegral,
+    &ellipse_axes::EllipseAxes,
+    &horizon_sphere::HorizonSphere,
+    &ltc_line::LtcLine,
+    &sym3_eigen::Sym3Eigen,
+];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {

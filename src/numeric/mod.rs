@@ -1,7 +1,13 @@
-//! Pure mathematics: spacing of floating-point formats, exact sums, twofold numbers, cubics, eigenvalues.
+//! Pure mathematics: spacing of floating-point formats, exact sums and products, twofold numbers, quadrature, cubics,
+//! eigenvalues, and the integrals that several families share.
 
+pub mod binary16;
+pub mod clipped_sphere;
 pub mod cubic;
 pub mod exact;
+pub mod gauss_legendre;
+pub mod line_integral;
+pub mod products;
 pub mod spacing;
 pub mod symmetric3;
 pub mod twofold;
