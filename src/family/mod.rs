@@ -5,6 +5,7 @@ mod edge_integral;
 mod ellipse_axes;
 mod horizon_sphere;
 mod ltc_line;
+mod ltc_polygon;
 mod problem;
 mod sym3_eigen;
 
@@ -19,6 +20,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &ellipse_axes::EllipseAxes,
     &horizon_sphere::HorizonSphere,
     &ltc_line::LtcLine,
+    &ltc_polygon::LtcPolygon,
     &sym3_eigen::Sym3Eigen,
 ];
 

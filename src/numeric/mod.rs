@@ -4,9 +4,11 @@
 pub mod binary16;
 pub mod clipped_sphere;
 pub mod cubic;
+pub mod double_double;
 pub mod exact;
 pub mod gauss_legendre;
 pub mod line_integral;
+pub mod polygon_irradiance;
 pub mod products;
 pub mod spacing;
 pub mod symmetric3;
