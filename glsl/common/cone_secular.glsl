@@ -2,8 +2,8 @@
 // difference of large numbers. Lengths within 2^-30..2^30 of 1. Pure functions; ours.
 //
 // In the ellipse's frame (semi-axes hx along x, hy along y, centre c) the dual of the cone is the matrix
-// S = diag(hx^2, hy^2, 0) - c c^T: eigenvalues s1 >= s2 >= 0 > -lambda, tan^2 = s/lambda, and lambda is the one positive
-// root of
+// S = diag(hx^2, hy^2, 0) - c c^T: eigenvalues s1 >= s2 >= 0 > -lambda, tan^2 = s/lambda, and lambda is the one
+// positive root of
 //
 //     p + q + r = 1,    p = cx^2/(hx^2 + lambda),  q = cy^2/(hy^2 + lambda),  r = cz^2/lambda
 //
@@ -25,7 +25,8 @@
 const float CONE_SMALLEST = 1.17549435e-38;
 const float CONE_LARGEST = 3.40282347e38;
 
-// The positive root x of weight/(pole + x) + z/x = 1 for weight, pole, z >= 0, without cancellation; 0 if there is none.
+// The positive root x of weight/(pole + x) + z/x = 1 for weight, pole, z >= 0, without cancellation; 0 if there is
+// none.
 float cone_two_poles(float weight, float pole, float z)
 {
     float m = 0.5 * (weight + z - pole);
@@ -69,7 +70,8 @@ float cone_lambda(vec2 h2, vec3 c2)
     return x;
 }
 
-// The unit mean direction, in the ellipse's frame, on the light's side: (cx/(hx^2 + lambda), cy/(hy^2 + lambda), cz/lambda).
+// The unit mean direction, in the ellipse's frame, on the light's side:
+// (cx/(hx^2 + lambda), cy/(hy^2 + lambda), cz/lambda).
 // Its largest component is brought to 1 first: beside the rim all of them can be small.
 vec3 cone_axis(vec2 h2, vec3 c, float lambda)
 {
@@ -85,8 +87,8 @@ vec3 cone_axis(vec2 h2, vec3 c, float lambda)
 //     t1 - t2 = hypot(alpha (q + r) - beta (p + r), 2 sqrt(alpha beta p q))
 //     t1 t2   = alpha beta r
 //
-// The one difference is squared beside what it is small against, and the minor tangent, hx hy cz/(lambda sqrt(s1)), needs
-// no square that could underflow.
+// The one difference is squared beside what it is small against, and the minor tangent, hx hy cz/(lambda sqrt(s1)),
+// needs no square that could underflow.
 vec2 cone_tangents(vec2 half_axes, vec3 c, float lambda)
 {
     float longer = max(max(half_axes.x, half_axes.y), CONE_SMALLEST);
@@ -125,32 +127,6 @@ void cone_secular(float hx, float hy, vec3 c, out vec3 axis, out float tan_major
     vec2 tangents = cone_tangents(vec2(hx, hy), c, lambda);
     tan_major = tangents.x;
     tan_minor = tangents.y;
-}
-
-// The irradiance of the unclipped cone through a plane across its axis, as a share of the hemisphere's.
-float cone_form_factor(float tan_major, float tan_minor)
-{
-    return tan_major * inversesqrt(1.0 + tan_major * tan_major) * (tan_minor * inversesqrt(1.0 + tan_minor * tan_minor));
-}
-
-// The cone's major direction W1, a unit vector across `axis`; W2 = cross(axis, W1). It is the eigenvector of S across the axis,
-// where c may be replaced by its difference from a multiple of the axis, e = (cx hx^2/(hx^2 + lambda),
-// cy hy^2/(hy^2 + lambda), 0), so that far lights cancel nothing. Circular cones: any direction.
-vec3 cone_major_direction(float hx, float hy, vec3 c, float lambda, vec3 axis)
-{
-    vec2 h2 = vec2(hx * hx, hy * hy);
-    vec2 e = c.xy * (h2 / (h2 + lambda));
-    vec3 t1 = abs(axis.x) > abs(axis.y) ? vec3(-axis.z, 0.0, axis.x) : vec3(0.0, axis.z, -axis.y);
-    t1 = normalize(t1);
-    vec3 t2 = cross(axis, t1);
-    vec2 k = vec2(dot(e, t1.xy), dot(e, t2.xy));
-    float m11 = dot(h2, t1.xy * t1.xy) - k.x * k.x;
-    float m22 = dot(h2, t2.xy * t2.xy) - k.y * k.y;
-    float m12 = dot(h2, t1.xy * t2.xy) - k.x * k.y;
-    float tau = 0.5 * (m11 - m22);
-    float h = sqrt(tau * tau + m12 * m12);
-    vec2 w = tau >= 0.0 ? vec2(tau + h, m12) : vec2(m12, h - tau);
-    return dot(w, w) > 0.0 ? normalize(w.x * t1 + w.y * t2) : t1;
 }
 
 #endif

@@ -10,7 +10,8 @@
 // One rotation in the plane of two indices: `app`, `aqq`, `apq` the block, `arp`, `arq` the third row's entries, `p`, `q`
 // the two columns of the eigenvector matrix.
 // Source: Rutishauser, "The Jacobi method for real symmetric matrices", 1966 (angle and update by its tangent).
-void jacobi_rotate(inout float app, inout float aqq, inout float apq, inout float arp, inout float arq, inout vec3 p, inout vec3 q)
+void jacobi_rotate(
+    inout float app, inout float aqq, inout float apq, inout float arp, inout float arq, inout vec3 p, inout vec3 q)
 {
     if (apq == 0.0) {
         return;

@@ -65,7 +65,9 @@ defines = { OVER_B = 1, CLAMP_DISCRIMINANT = 1, CLAMP_RADICANDS = 1, CLAMP_TANGE
 // double root. Source: Heitz & Hill 2017; Blinn 2006-2007.
 // Bound: c2, c1 and the discriminant cancel; nothing holds near a double root, where the discriminant's sign is noise
 // and its root NaN unless clamped, nor past cz/hx of about 2100, where it overflows.
-// Measured: -
+// Measured: lavapipe, Mesa 22.3, 1 M a scenario, failed. blinn: scene 0, facing 37 %, far 36 % (6 % not finite), near the
+// plane 1, needle 0.16 %; a clamped discriminant takes facing to 0 and changes nothing else, floors lose 36 % near the
+// plane. blinn_be_discriminant: scene 5, facing 0, far 3, near the plane 1.7 %, needle 0.29 %. edge: half in all.
 
 #include "common/cone_quadric.glsl"
 #include "common/cubic_blinn.glsl"

@@ -25,7 +25,8 @@ defines = { BALANCED = 1 }
 //
 // Domain: any centre off the light's plane, non-zero semi-axes, lengths within 2^-20..2^20 of 1. Source: ours.
 // Bound: c1, c2 round to 2^-24 of their largest terms: as if the inputs were rounded.
-// Measured: -
+// Measured: lavapipe, Mesa 22.3, 1 M a scenario, failed. direct: scene 5, facing 0, far 0, near the plane 0.30 %, needle
+// 0.02 %. direct_balanced: none of these, tan_minor worst 2.5e-5, 3.7e-7, 4.3e-7, 7.0e-4, 1.5e-5. edge: 15 % and 17 %.
 
 #include "common/cone_secular.glsl"
 

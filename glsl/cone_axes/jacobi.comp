@@ -19,7 +19,8 @@ defines = { DUAL = 1 }
 // Bound: every eigenvalue within some 2^-21 of the largest in size. The quadric's negative one is about 1 beside
 // the squared distance in radii, S's positive ones are about 1 beside it: far lights lose either. Small eigenvalues
 // of the wrong sign are clamped to 0, and no better for it.
-// Measured: -
+// Measured: lavapipe, Mesa 22.3, 1 M a scenario, failed, the quadric and its dual: scene 3.4 % and 4.5 %, facing 0, far 70 %
+// and 72 %, near the plane 0, needle 32 % and 36 %.
 
 #include "common/jacobi3.glsl"
 

@@ -23,7 +23,8 @@ defines = { HALLEY = 1 }
 // Domain: centres off the light's plane, non-zero semi-axes, lights within 1000 radii. Source: textbook.
 // Bound: c1 and c2 cancel as in `blinn`; no square root here has a negative radicand by more than rounding, and that one
 // is clamped. A root much below 1 takes a step for each factor of 1.5 (Newton's) or 2 (Halley's).
-// Measured: -
+// Measured: lavapipe, Mesa 22.3, 1 M a scenario, failed, Newton's and Halley's: scene 0.98 % and 0.78 %, facing 0.67 %, far
+// 0.05 % and 5.5 % (overflow), near the plane 67 % and 65 %, needle 1.7 % and 1.4 %.
 
 #include "common/cone_quadric.glsl"
 

@@ -25,7 +25,8 @@ defines = { OVER_B = 1, CLAMP_DISCRIMINANT = 1, CLAMP_RADICANDS = 1, CLAMP_TANGE
 //
 // Domain: centres off the light's plane, non-zero semi-axes, lights within a few radii. Source: Peters 2016.
 // Bound: the negative root's absolute error is some 2^-24 of the largest root, whatever its own size.
-// Measured: -
+// Measured: lavapipe, Mesa 22.3, 1 M a scenario: fails 19 % of scene, 37 % of facing (0.9 % with the clamp), 87 % of far,
+// 63 % near the plane, 55 % of needle; over b: the same.
 
 #include "common/cone_quadric.glsl"
 #include "common/cubic_blinn.glsl"

@@ -13,7 +13,8 @@ name = "secular_newton"
 //
 // Domain: centres off the light's plane, non-zero semi-axes, lengths within 2^-30..2^30 of 1. Source: ours.
 // Bound: as `secular`, where 8 steps are enough; near the plane the root ranges over decades and they are not.
-// Measured: -
+// Measured: lavapipe, Mesa 22.3, 1 M a scenario: fails none of scene, facing, far, near the plane and needle; tan_minor
+// worst 2.7e-5, 3.9e-7, 4.3e-7, 8.4e-4, 5.4e-5. edge: 36 % fail, 26 % are not finite.
 
 #include "common/cone_secular.glsl"
 

@@ -20,7 +20,8 @@ precise = true
 // Domain: centres off the light's plane, non-zero semi-axes. Source: Smith 1961.
 // Bound: every root is off by 2^-24 of the largest, more by what acos loses near r = +-1; a far light's largest root is
 // its squared distance in radii, its negative root about 1.
-// Measured: -
+// Measured: lavapipe, Mesa 22.3, 1 M a scenario: fails 48 % of scene, 3.5 % of facing, 99 % of far, 85 % near the plane,
+// 78 % of needle.
 
 #include "common/cone_quadric.glsl"
 

@@ -29,7 +29,8 @@ defines = { POLISHED = 1 }
 // Domain: any finite matrix, where entries below 2^-60 of the largest count as 0. Source: ours.
 // Bound: values within some 2^-21 of the norm, vectors within that over their gap, always orthonormal within 2^-21; no
 // loss at equal eigenvalues.
-// Measured: -
+// Measured: lavapipe, Mesa 22.3, 1 M a scenario: fails none of scene and indefinite, 0.03 % of near_equal (POLISHED 0.02 %),
+// 0.03 % of graded, 3 of light_cone, 0.9 % of edge; e0 p99 5.7e-6 on scene.
 
 #include "common/orthogonal.glsl"
 #include "common/power_of_two.glsl"

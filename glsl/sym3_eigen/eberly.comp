@@ -15,9 +15,10 @@ precise = true
 // of rows; that of the middle one from a 2x2 problem in the plane orthogonal to it; the last by orthogonality.
 //
 // Domain: any finite matrix. Source: Eberly 2014.
-// Bound: values within some 2^-22 of the norm, near a double eigenvalue its two within 2^-11 of it; vectors orthonormal
-// always, those of a close pair as wrong as its values.
-// Measured: -
+// Bound: with an exact acos (Vulkan allows 4096 ULP) values within some 2^-22 of the norm, near a double eigenvalue its two
+// within 2^-11 of it; vectors orthonormal always, those of a close pair as wrong as its values.
+// Measured: lavapipe, Mesa 22.3 (whose acos is off by 1e-4), 1 M a scenario: fails 11 % of scene, 41 % of near_equal, 86 % of
+// graded, 5.4 % of indefinite, 65 % of light_cone, 19 % of edge; always finite.
 
 #include "common/sym3.glsl"
 

@@ -15,7 +15,8 @@ precise = true
 //
 // Domain: entries within 2^-60..2^60. Source: as above.
 // Bound: values within some 2^-21 of the norm, vectors within that over their gap and orthonormal within 2^-20.
-// Measured: -
+// Measured: lavapipe, Mesa 22.3, 1 M a scenario: fails 51 of scene, 1.8 % of near_equal, 17 % of graded, 28 of indefinite,
+// 5.5 % of light_cone, 2.5 % of edge.
 
 #include "common/hypot.glsl"
 #include "common/sym3.glsl"

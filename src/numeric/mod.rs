@@ -1,5 +1,5 @@
-//! Pure mathematics: spacing of floating-point formats, exact sums and products, quadrature, cubics, and the
-//! integrals that several families share.
+//! Pure mathematics: spacing of floating-point formats, exact sums and products, twofold numbers, quadrature, cubics,
+//! eigenvalues, and the integrals that several families share.
 
 pub mod binary16;
 pub mod clipped_sphere;
