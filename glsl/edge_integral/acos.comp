@@ -49,16 +49,9 @@ defines = { EDGE = "edge_acos_normalized_saturated" }
 // theta = 0.02 (where the cross product makes it small), and within 0.02 of pi (where nothing does).
 // Measured: -
 
-#include "common/edge_acos.glsl"
-#include "common/edge_split.glsl"
+#include "common/edge_any.glsl"
 
 vec3 edge_integral(vec3 a, vec3 b)
 {
-#ifdef SPLIT
-    if (edge_needs_split(a, b)) {
-        vec3 middle = edge_split_point(a, b);
-        return EDGE(a, middle) + EDGE(middle, b);
-    }
-#endif
-    return EDGE(a, b);
+    return edge_any(a, b);
 }

@@ -28,16 +28,9 @@ defines = { EDGE = "edge_atan2_guarded", SPLIT = 1 }
 // Bound: atan's own error over 2 pi, and half the angle by which a x b turns: 2^-23/sin(theta), 1e-4 within 1e-3 of pi.
 // Measured: -
 
-#include "common/edge_atan2.glsl"
-#include "common/edge_split.glsl"
+#include "common/edge_any.glsl"
 
 vec3 edge_integral(vec3 a, vec3 b)
 {
-#ifdef SPLIT
-    if (edge_needs_split(a, b)) {
-        vec3 middle = edge_split_point(a, b);
-        return EDGE(a, middle) + EDGE(middle, b);
-    }
-#endif
-    return EDGE(a, b);
+    return edge_any(a, b);
 }

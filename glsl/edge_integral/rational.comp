@@ -5,88 +5,88 @@ source  = "Hill & Heitz, Real-Time Area Lighting: a Journey from Research to Pro
 [[variant]]
 name = "rational"
 summary = "The 0.854 scaling; no guard"
-defines = { FIT = "fit_rational", GUARD = "guard_none", FIT_SCALED = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational", GUARD = "guard_none", FIT_SCALED = 1 }
 
 [[variant]]
 name = "rational_1e7"
 summary = "The 0.854 scaling; max(1 - x^2, 1e-7)"
-defines = { FIT = "fit_rational", GUARD = "guard_1e7", FIT_SCALED = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational", GUARD = "guard_1e7", FIT_SCALED = 1 }
 
 [[variant]]
 name = "rational_flt_min"
 summary = "The 0.854 scaling; max(1 - x^2, FLT_MIN)"
-defines = { FIT = "fit_rational", GUARD = "guard_flt_min", FIT_SCALED = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational", GUARD = "guard_flt_min", FIT_SCALED = 1 }
 
 [[variant]]
 name = "rational_epsilon"
 summary = "The 0.854 scaling; max(1 - x^2, 2^-24)"
-defines = { FIT = "fit_rational", GUARD = "guard_epsilon", FIT_SCALED = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational", GUARD = "guard_epsilon", FIT_SCALED = 1 }
 
 [[variant]]
 name = "rational_saturate"
 summary = "The 0.854 scaling; saturate(1 - x^2)"
-defines = { FIT = "fit_rational", GUARD = "guard_saturate", FIT_SCALED = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational", GUARD = "guard_saturate", FIT_SCALED = 1 }
 
 [[variant]]
 name = "rational_clamped"
 summary = "The 0.854 scaling; the dot product clamped to +-0.9999"
-defines = { FIT = "fit_rational", GUARD = "guard_1e7", CLAMP_DOT = 1, FIT_SCALED = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational", GUARD = "guard_1e7", CLAMP_DOT = 1, FIT_SCALED = 1 }
 
 [[variant]]
 name = "rational_split"
 summary = "The 0.854 scaling; no guard, but nearly opposite vectors split at the chord's closest point"
-defines = { FIT = "fit_rational", GUARD = "guard_none", SPLIT = 1, FIT_SCALED = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational", GUARD = "guard_none", SPLIT = 1, FIT_SCALED = 1 }
 
 [[variant]]
 name = "rational_542"
 summary = "The 5.42 scaling; no guard"
-defines = { FIT = "fit_rational_542", GUARD = "guard_none" }
+defines = { EDGE = "edge_fit", FIT = "fit_rational_542", GUARD = "guard_none" }
 
 [[variant]]
 name = "rational_542_1e7"
 summary = "The 5.42 scaling; max(1 - x^2, 1e-7)"
-defines = { FIT = "fit_rational_542", GUARD = "guard_1e7" }
+defines = { EDGE = "edge_fit", FIT = "fit_rational_542", GUARD = "guard_1e7" }
 
 [[variant]]
 name = "rational_542_flt_min"
 summary = "The 5.42 scaling; max(1 - x^2, FLT_MIN)"
-defines = { FIT = "fit_rational_542", GUARD = "guard_flt_min" }
+defines = { EDGE = "edge_fit", FIT = "fit_rational_542", GUARD = "guard_flt_min" }
 
 [[variant]]
 name = "rational_542_epsilon"
 summary = "The 5.42 scaling; max(1 - x^2, 2^-24)"
-defines = { FIT = "fit_rational_542", GUARD = "guard_epsilon" }
+defines = { EDGE = "edge_fit", FIT = "fit_rational_542", GUARD = "guard_epsilon" }
 
 [[variant]]
 name = "rational_542_saturate"
 summary = "The 5.42 scaling; saturate(1 - x^2)"
-defines = { FIT = "fit_rational_542", GUARD = "guard_saturate" }
+defines = { EDGE = "edge_fit", FIT = "fit_rational_542", GUARD = "guard_saturate" }
 
 [[variant]]
 name = "rational_542_clamped"
 summary = "The 5.42 scaling; the dot product clamped to +-0.9999"
-defines = { FIT = "fit_rational_542", GUARD = "guard_1e7", CLAMP_DOT = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational_542", GUARD = "guard_1e7", CLAMP_DOT = 1 }
 
 [[variant]]
 name = "rational_542_split"
 summary = "The 5.42 scaling; no guard, but nearly opposite vectors split at the chord's closest point"
-defines = { FIT = "fit_rational_542", GUARD = "guard_none", SPLIT = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational_542", GUARD = "guard_none", SPLIT = 1 }
 
 [[variant]]
 name = "rational_542_as_ported"
 summary = "The 5.42 scaling with sqrt for inversesqrt, a mistake seen in a port: a control"
-defines = { FIT = "fit_rational_542", GUARD = "guard_none", AS_PORTED_SQRT = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational_542", GUARD = "guard_none", AS_PORTED_SQRT = 1 }
 
 [[variant]]
 name = "rational_precise"
 summary = "The 0.854 scaling; no guard"
-defines = { FIT = "fit_rational", GUARD = "guard_none", FIT_SCALED = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational", GUARD = "guard_none", FIT_SCALED = 1 }
 precise = true
 
 [[variant]]
 name = "rational_1e7_precise"
 summary = "The 0.854 scaling; max(1 - x^2, 1e-7)"
-defines = { FIT = "fit_rational", GUARD = "guard_1e7", FIT_SCALED = 1 }
+defines = { EDGE = "edge_fit", FIT = "fit_rational", GUARD = "guard_1e7", FIT_SCALED = 1 }
 precise = true
 ---*/
 
@@ -99,16 +99,9 @@ precise = true
 // relative terms: 1e-4 within 0.03 of pi, and whatever the guard says within 3e-4.
 // Measured: -
 
-#include "common/edge_fit.glsl"
-#include "common/edge_split.glsl"
+#include "common/edge_any.glsl"
 
 vec3 edge_integral(vec3 a, vec3 b)
 {
-#ifdef SPLIT
-    if (edge_needs_split(a, b)) {
-        vec3 middle = edge_split_point(a, b);
-        return edge_fit(a, middle) + edge_fit(middle, b);
-    }
-#endif
-    return edge_fit(a, b);
+    return edge_any(a, b);
 }

@@ -5,6 +5,7 @@ mod edge_integral;
 mod ellipse_axes;
 mod horizon_sphere;
 mod ltc_line;
+mod ltc_polygon;
 mod problem;
 
 pub use problem::{
@@ -18,6 +19,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &ellipse_axes::EllipseAxes,
     &horizon_sphere::HorizonSphere,
     &ltc_line::LtcLine,
+    &ltc_polygon::LtcPolygon,
 ];
 
 /// The family of that name.

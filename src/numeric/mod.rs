@@ -1,11 +1,13 @@
-//! Pure mathematics: spacing of floating-point formats, exact sums and products, quadrature, cubics, and the
-//! integrals that several families share.
+//! Pure mathematics: spacing of floating-point formats, exact sums and products, double-double numbers, quadrature,
+//! cubics, and the integrals that several families share.
 
 pub mod binary16;
 pub mod clipped_sphere;
 pub mod cubic;
+pub mod double_double;
 pub mod exact;
 pub mod gauss_legendre;
 pub mod line_integral;
+pub mod polygon_irradiance;
 pub mod products;
 pub mod spacing;
