@@ -204,8 +204,7 @@ mod tests {
     use super::*;
     use crate::sample::ggx::table;
 
-    #[allow(clippy::declare_interior_mutable_const, reason = "a fresh flag at each use")]
-    const GO: AtomicBool = AtomicBool::new(false);
+    static GO: AtomicBool = AtomicBool::new(false);
 
     #[test]
     fn rows_fitted_again_are_the_committed_ones() {
