@@ -83,21 +83,21 @@ defines = { EDGE = "edge_stable" }
 // Bound: normalising rounds every corner by 2^-24, which turns an edge's plane by 2^-24/sin(theta): 1e-4 of the result
 // within 1e-3 of pi. What the form of the edge adds is stated there.
 // Measured: failed, and worst error; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
-//                                       ggx       grazing           far    near_plane      needle       horizon    inside_out       edge
-//   cases_acos_clamped           1.31% 0.50    0.28% 0.50      0 3.0e-5    27.8% 0.93  0.12% 0.43    0.41% 0.50    28.9% 0.55  16.5% inf
-//   cases_acos                   1.29% 1653    0.28% 2332      0 3.0e-5    27.1% 3898  0.11% 0.04    0.40% 1059  28.6% 7.7e-3  16.7% inf
-//   cases_acos_normalized         4x 1.3e-4     1x 1.0e-4  1.89% 2.2e-4     0.11% inf   0.21% inf     5x 1.3e-4     9x 1.1e-4  42.9% inf
-//   cases_atan2                    0 5.9e-6      0 1.1e-5      0 6.6e-7      61x 0.80    0 7.6e-5      0 3.4e-6      0 2.0e-5  15.5% inf
-//   cases_rational                0.11% inf     0.04% inf      0 1.6e-7     22.6% inf  0.01% 0.04     0.03% inf  1.13% 7.8e-3  20.5% inf
-//   cases_rational_1e7           0.11% 0.46    0.04% 0.49      0 1.6e-7    22.6% 0.80  0.01% 0.04    0.03% 0.46  1.13% 7.8e-3  16.1% inf
-//   cases_rational_flt_min     0.11% 1.3e15  0.04% 1.9e15      0 1.6e-7  22.6% 3.1e15  0.01% 0.04  0.03% 8.5e14  1.12% 7.8e-3  17.2% inf
-//   cases_rational_epsilon       0.11% 0.44    0.04% 0.48      0 1.6e-7    22.6% 0.90  0.01% 0.04    0.03% 0.45  1.13% 7.8e-3  16.1% inf
-//   cases_rational_saturate       0.11% inf     0.04% inf      0 1.6e-7     22.6% inf  0.01% 0.04     0.03% inf  1.13% 7.8e-3  20.5% inf
-//   cases_rational_split       0.08% 2.9e-3  0.03% 1.8e-3      0 1.6e-7    2.60% 0.80  95x 1.6e-3  0.02% 2.9e-3  1.12% 3.3e-3  18.7% inf
-//   cases_quadratic_1e7          43.5% 0.46    4.73% 0.49    72x 2.7e-3    63.4% 0.80  5.49% 0.04    28.8% 0.46  75.5% 7.8e-3  34.9% inf
-//   cases_cubic_1e7              14.7% 0.46    1.59% 0.49    15x 2.2e-4    36.7% 0.80  1.05% 0.04    8.97% 0.46  28.3% 7.8e-3  21.6% inf
-//   cases_poly7_1e7              0.11% 0.46    0.04% 0.49      0 1.6e-7    22.6% 0.80  0.01% 0.04    0.03% 0.46  1.13% 7.8e-3  16.1% inf
-//   cases_stable                   0 6.0e-6      0 1.1e-5      0 8.4e-8      61x 0.80    0 7.6e-5      0 3.0e-6      0 1.9e-5  15.6% inf
+//                                       ggx           far    near_plane      needle    inside_out       edge
+//   cases_acos_clamped           1.31% 0.50      0 3.0e-5    27.8% 0.93  0.12% 0.43    28.9% 0.55  16.5% inf
+//   cases_acos                   1.29% 1653      0 3.0e-5    27.1% 3898  0.11% 0.04  28.6% 7.7e-3  16.7% inf
+//   cases_acos_normalized         4x 1.3e-4  1.89% 2.2e-4     0.11% inf   0.21% inf     9x 1.1e-4  42.9% inf
+//   cases_atan2                    0 5.9e-6      0 6.6e-7      61x 0.80    0 7.6e-5      0 2.0e-5  15.5% inf
+//   cases_rational                0.11% inf      0 1.6e-7     22.6% inf  0.01% 0.04  1.13% 7.8e-3  20.5% inf
+//   cases_rational_1e7           0.11% 0.46      0 1.6e-7    22.6% 0.80  0.01% 0.04  1.13% 7.8e-3  16.1% inf
+//   cases_rational_flt_min     0.11% 1.3e15      0 1.6e-7  22.6% 3.1e15  0.01% 0.04  1.12% 7.8e-3  17.2% inf
+//   cases_rational_epsilon       0.11% 0.44      0 1.6e-7    22.6% 0.90  0.01% 0.04  1.13% 7.8e-3  16.1% inf
+//   cases_rational_saturate       0.11% inf      0 1.6e-7     22.6% inf  0.01% 0.04  1.13% 7.8e-3  20.5% inf
+//   cases_rational_split       0.08% 2.9e-3      0 1.6e-7    2.60% 0.80  95x 1.6e-3  1.12% 3.3e-3  18.7% inf
+//   cases_quadratic_1e7          43.5% 0.46    72x 2.7e-3    63.4% 0.80  5.49% 0.04  75.5% 7.8e-3  34.9% inf
+//   cases_cubic_1e7              14.7% 0.46    15x 2.2e-4    36.7% 0.80  1.05% 0.04  28.3% 7.8e-3  21.6% inf
+//   cases_poly7_1e7              0.11% 0.46      0 1.6e-7    22.6% 0.80  0.01% 0.04  1.13% 7.8e-3  16.1% inf
+//   cases_stable                   0 6.0e-6      0 8.4e-8      61x 0.80    0 7.6e-5      0 1.9e-5  15.6% inf
 
 #include "common/edge_any.glsl"
 

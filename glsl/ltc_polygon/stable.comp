@@ -56,13 +56,13 @@ defines = { ATAN2 = 1 }
 // Source: ours; the fits in glsl/common/edge_stable.glsl.
 // Bound: a few 2^-24 of the irradiance's terms, and what rounding q does to edges that nearly pass the point.
 // Measured: failed, and worst error; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
-//                                 ggx   grazing       far  near_plane    needle   horizon  inside_out        edge
-//   stable                   0 7.0e-6  0 1.1e-5  0 8.3e-8    62x 0.80  0 7.5e-5  0 2.4e-6    0 2.4e-5  0.34% 1.00
-//   stable_scaled            0 7.0e-6  0 1.1e-5  0 8.3e-8    62x 0.80  0 7.5e-5  0 2.4e-6    0 2.4e-5    84x 1.00
-//   stable_differences       0 7.0e-6  0 1.1e-5  0 1.3e-7    62x 0.80  0 7.5e-5  0 2.9e-6    0 2.4e-5    84x 1.00
-//   stable_compensated       0 6.7e-6  0 1.1e-5  0 8.3e-8    62x 0.80  0 7.7e-5  0 3.0e-6    0 2.0e-5    84x 1.00
-//   stable_hill              0 7.0e-6  0 1.1e-5  0 1.3e-7    62x 0.80  0 7.5e-5  0 2.5e-6    0 2.4e-5  0.34% 1.00
-//   stable_atan2             0 6.6e-6  0 1.1e-5  0 6.8e-7    62x 0.80  0 7.5e-5  0 2.4e-6    0 2.4e-5  0.82% 1.00
+//                                 ggx       far  near_plane    needle  inside_out        edge
+//   stable                   0 7.0e-6  0 8.3e-8    62x 0.80  0 7.5e-5    0 2.4e-5  0.34% 1.00
+//   stable_scaled            0 7.0e-6  0 8.3e-8    62x 0.80  0 7.5e-5    0 2.4e-5    84x 1.00
+//   stable_differences       0 7.0e-6  0 1.3e-7    62x 0.80  0 7.5e-5    0 2.4e-5    84x 1.00
+//   stable_compensated       0 6.7e-6  0 8.3e-8    62x 0.80  0 7.7e-5    0 2.0e-5    84x 1.00
+//   stable_hill              0 7.0e-6  0 1.3e-7    62x 0.80  0 7.5e-5    0 2.4e-5  0.34% 1.00
+//   stable_atan2             0 6.6e-6  0 6.8e-7    62x 0.80  0 7.5e-5    0 2.4e-5  0.82% 1.00
 
 #include "common/edge_fit.glsl"
 #include "common/edge_stable.glsl"
