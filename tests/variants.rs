@@ -149,6 +149,7 @@ const CLAIMS: &[(&str, Claim)] = &[
     ("swapping the semi-axes changes nothing", swap),
     ("a quarter turn turns the axes", quarter_turn),
     ("a power-of-two scale scales lengths exactly", scale),
+    ("the horizon's closed form, tables and fits keep their bounds", horizon_bounds),
 ];
 
 /// `as_printed` and `naive` must fail for at least a tenth of `aspect`, or the harness is broken.
@@ -272,4 +273,31 @@ fn scale(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
     }
     let caught = changed("sqrtq_floors", -14)?;
     expect(caught > 0, || "absolute floors of 1e-7 pass a scale of 2^-14: this check sees nothing".to_owned())
+}
+
+/// Absolute errors of `horizon_sphere`: what each form states as its bound holds and is not far from the truth, so that
+/// a table that is shifted by half a texel or not uploaded at all is caught.
+fn horizon_bounds(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    // Scenario, least and most that the worst error of 20 000 may be. The sampler may quantise its weights.
+    let claims = [
+        ("stable", "scene", 0.0, 2e-7),
+        ("stable", "small", 0.0, 1e-11),
+        ("stable", "near_full", 0.0, 3e-7),
+        ("stable", "edge", 0.0, 3e-7),
+        ("lut", "near_full", 0.01, 0.0201),
+        ("lut_sampler", "near_full", 0.01, 0.025),
+        ("lut_solid_angle", "near_full", 1e-4, 1.4e-3),
+        ("lut_solid_angle_sampler", "near_full", 1e-4, 6e-3),
+        ("lut_sampler_edge", "scene", 0.01, 0.1),
+        ("rational", "scene", 0.1, 0.135),
+        ("polynomial", "scene", 0.03, 0.066),
+        ("polynomial_faded", "near_full", 0.08, 0.1),
+    ];
+    for (name, scenario, least, most) in claims {
+        let variant = variant(catalog, &format!("horizon_sphere/{name}"))?;
+        let audited = audit_of(rig, &variant, scenario, MAX_CHUNK)?;
+        let worst = audited.summaries[0].outputs[0].worst.found.map_or(f64::INFINITY, |(error, _)| error);
+        expect((least..=most).contains(&worst), || format!("{name} on {scenario}: {worst:e}"))?;
+    }
+    Ok(())
 }

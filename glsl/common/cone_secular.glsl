@@ -85,22 +85,27 @@ vec3 cone_axis(vec2 h2, vec3 c, float lambda)
 //     t1 - t2 = hypot(alpha (q + r) - beta (p + r), 2 sqrt(alpha beta p q))
 //     t1 t2   = alpha beta r
 //
-// The one difference is squared beside what it is small against.
-vec2 cone_tangents(vec2 h2, vec3 c2, float lambda)
+// The one difference is squared beside what it is small against, and the minor tangent, hx hy cz/(lambda sqrt(s1)), needs
+// no square that could underflow.
+vec2 cone_tangents(vec2 half_axes, vec3 c, float lambda)
 {
+    float longer = max(max(half_axes.x, half_axes.y), CONE_SMALLEST);
+    float root = inversesqrt(lambda);
+    vec2 h2 = half_axes * half_axes;
+    vec3 c2 = c * c;
     vec2 inverse = 1.0 / (h2 + lambda);
     float p = c2.x * inverse.x;
     float q = c2.y * inverse.y;
     float r = c2.z / lambda;
-    float longer = max(max(h2.x, h2.y), CONE_SMALLEST);
-    vec2 ab = h2 / longer;
+    vec2 ab = half_axes / longer;
+    ab *= ab;
     float f = ab.x * (q + r);
     float g = ab.y * (p + r);
     float t1 = 0.5 * (f + g + sqrt((f - g) * (f - g) + 4.0 * (ab.x * p) * (ab.y * q)));
-    float unit = sqrt(longer) * inversesqrt(lambda);
-    float minor = t1 > 0.0 ? sqrt(min(ab.x, ab.y) * (r / t1)) : 0.0;
-    float major = sqrt(t1);
-    return unit * vec2(major, min(minor, major));
+    float across = sqrt(t1);
+    float major = longer * root * across;
+    float minor = across > 0.0 ? min(half_axes.x, half_axes.y) * root * (abs(c.z) * root / across) : 0.0;
+    return vec2(major, min(minor, major));
 }
 
 // Axis and tangents for semi-axes hx, hy >= 0 and any centre. The origin in the light itself sees a half space: the
@@ -117,7 +122,7 @@ void cone_secular(float hx, float hy, vec3 c, out vec3 axis, out float tan_major
         return;
     }
     axis = cone_axis(h2, c, lambda);
-    vec2 tangents = cone_tangents(h2, c2, lambda);
+    vec2 tangents = cone_tangents(vec2(hx, hy), c, lambda);
     tan_major = tangents.x;
     tan_minor = tangents.y;
 }

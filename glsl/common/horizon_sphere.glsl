@@ -11,32 +11,22 @@ const float HORIZON_PI = 3.14159274;
 const float HORIZON_HALF_PI = 1.57079637;
 const float HORIZON_INV_PI = 0.318309873;
 
-#if defined(SPHERE_LUT_BUFFER)
-// Bilinear, in f32, of the four texels around; `at` counts texels from the centre of the first.
-float sphere_lut_at(vec2 at)
-{
-    at = clamp(at, vec2(0.0), vec2(sphere_lut_size - 1));
-    vec2 corner = floor(at);
-    vec2 weight = at - corner;
-    ivec2 texel = ivec2(corner);
-    float below = mix(sphere_lut_texel(texel), sphere_lut_texel(texel + ivec2(1, 0)), weight.x);
-    float above = mix(sphere_lut_texel(texel + ivec2(0, 1)), sphere_lut_texel(texel + ivec2(1, 1)), weight.x);
-    return mix(below, above, weight.y);
-}
-#elif defined(SPHERE_LUT_IMAGE)
-// By the sampler: the centre of the first texel is at half a texel.
-float sphere_lut_at(vec2 at)
-{
-    return textureLod(sphere_lut, (at + 0.5) / vec2(sphere_lut_size), 0.0).x;
-}
-#endif
-
 #if defined(SPHERE_LUT_BUFFER) || defined(SPHERE_LUT_IMAGE)
-// From the table `sphere_lut`, which holds the irradiance over s.
+// From the table `sphere_lut`, which holds the irradiance over s, by c and s.
 // Source: Heitz & Hill, "Real-Time Line- and Disk-Light Shading with Linearly Transformed Cosines", 2017.
 float horizon_lut(float c, float s)
 {
     return s * sphere_lut_at(vec2(0.5 * c + 0.5, s) * vec2(sphere_lut_size - 1));
+}
+#endif
+
+#if defined(SPHERE_LUT_SOLID_ANGLE_BUFFER) || defined(SPHERE_LUT_SOLID_ANGLE_IMAGE)
+// From the table `sphere_lut_solid_angle`, which holds the same by c and 1 - cos sigma: the irradiance has a root of
+// 1 - s in it, which no table in s follows near s = 1. Source: ours.
+float horizon_lut_solid_angle(float c, float s)
+{
+    float v = 1.0 - sqrt(clamp(1.0 - s, 0.0, 1.0));
+    return s * sphere_lut_solid_angle_at(vec2(0.5 * c + 0.5, v) * vec2(sphere_lut_solid_angle_size - 1));
 }
 #endif
 
@@ -61,33 +51,33 @@ float horizon_rational(float c, float s)
     return max(0.0, s * (c + s) / (s + 1.0));
 }
 
-// Q of V(x) = x^2 Q(x^2) = 2/3 + 1/x^2 - (1 + x^2)/x^3 atan x, for x^2 in 0..1: relative error 8e-8, Remez.
-float horizon_poly(float z)
-{
-    float q = 0.00277991409 - z * 0.000522755062;
-    q = -0.00713750886 + z * q;
-    q = 0.0127717477 + z * q;
-    q = -0.0199272698 + z * q;
-    q = 0.0317143102 + z * q;
-    q = -0.0571414287 + z * q;
-    return 0.133333323 + z * q;
-}
+#define HORIZON_HORNER(q) slope = value + x * slope; value = (q) + y * value;
 
-// Y(u) = (2/3 - V(1/u))/u = (1 + u^2) acot u - u, for u in 0..1.
-float horizon_far(float u)
+// (Q(y), Q[x, y]) of V(x) = x^2 Q(x^2) = 2/3 + 1/x^2 - (1 + x^2)/x^3 atan x: value and divided difference
+// (Q(x) - Q(y))/(x - y), which has nothing to cancel. x, y in 0..1.235; relative error of Q there: 4.5e-8, Remez.
+vec2 horizon_poly(float x, float y)
 {
-    float z = u * u;
-    return HORIZON_HALF_PI * (1.0 + z) - u * (2.0 + z * (0.666666687 - z * horizon_poly(z)));
+    float value = 0.000178524911;
+    float slope = 0.0;
+    HORIZON_HORNER(-0.00122048847)
+    HORIZON_HORNER(0.00388683847)
+    HORIZON_HORNER(-0.00805165051)
+    HORIZON_HORNER(0.0131901789)
+    HORIZON_HORNER(-0.020031455)
+    HORIZON_HORNER(0.0317270932)
+    HORIZON_HORNER(-0.0571420297)
+    HORIZON_HORNER(0.133333327)
+    return vec2(value, slope);
 }
 
 // The closed form without cancellation: the whole sphere's irradiance, if its centre is above the horizon, plus what
 // lies beyond the horizon as seen from the centre's side,
 //
-//     pi G = r^2/q^2 t (V(p) - V(t)) = r^2/q^2 (Y(1/t) - |c| Y(1/p))
-//     r^2 = s - c^2, q^2 = 1 - c^2, t = r/C, p = t/|c|, C^2 = 1 - s
+//     pi G = r^2/q^2 t (V(p) - V(t)) = r^2/q^2 (Y(1/t) - a Y(1/p))       Y(u) = (2/3 - V(1/u))/u = (1 + u^2) acot u - u
+//     r^2 = s - c^2, a = |c|, q^2 = 1 - a^2, t = r/C, p = t/a, C^2 = 1 - s
 //
-// in which both differences are of quantities that differ, unless |c| -> 1 while the horizon cuts the sphere, where G
-// itself vanishes with 1 - |c|. No trigonometric function and no table.
+// in which both differences have the factor 1 - a, taken out by divided differences unless t < 0.9 and p > 1: there a
+// is below 0.9. No trigonometric function and no table.
 // Source: ours, from Snyder, "Area Light Sources for Real-Time Graphics", 1996.
 float horizon_stable(float c, float s)
 {
@@ -95,34 +85,43 @@ float horizon_stable(float c, float s)
     s = clamp(s, 0.0, 1.0);
     float a = min(abs(c), 1.0);
     float whole = c > 0.0 ? s * a : 0.0;
-    // c^2 from exact partial products: s - c^2 good to 2^-35 c^2.
+    // c^2 from exact partial products: where s - c^2 cancels each difference but the last is exact, and r^2 is good to a
+    // rounding of itself.
     float high = uintBitsToFloat(floatBitsToUint(a) & 0xfffff000u);
-    float r2 = (s - high * high) - (a - high) * (a + high);
+    float low = a - high;
+    precise float r2 = s - high * high;
+    r2 = r2 - 2.0 * high * low;
+    r2 = r2 - low * low;
     if (!(r2 > 0.0)) {
         return whole;
     }
     float r = sqrt(r2);
     float cos_sigma = sqrt(1.0 - s);
-    float ac = a * cos_sigma;
-    float share = r2 / ((1.0 - a) * (1.0 + a));
+    float a2 = a * a;
     float beyond;
-    if (r < cos_sigma) {
+    if (r < a * cos_sigma) {
         float t = r / cos_sigma;
-        float v_t = t * t * horizon_poly(t * t);
-        float v_p;
-        if (r < ac) {
-            float p = r / ac;
-            v_p = p * p * horizon_poly(p * p);
-        } else {
-            float u = ac / r;
-            v_p = 0.666666687 - u * horizon_far(u);
-        }
-        beyond = t * (v_p - v_t);
-    } else {
+        float p2 = (t / a) * (t / a);
+        vec2 q = horizon_poly(p2, t * t);
+        beyond = t * p2 * (q.x + p2 * q.y);
+    } else if (r > 0.9 * cos_sigma) {
         float u = cos_sigma / r;
-        beyond = horizon_far(u) - a * horizon_far(a * u);
+        float z = u * u;
+        float w = a2 * z;
+        vec2 q = horizon_poly(z, w);
+        // x^3 Q(x) by the product rule, thrice.
+        float cubed = w * w * q.x + z * (w * q.x + z * (q.x + z * q.y));
+        float slope = 2.0 + 0.666666687 * (z + w) - cubed;
+        beyond = HORIZON_HALF_PI * (1.0 + z * (1.0 + a + a2)) / (1.0 + a) - u * slope;
+    } else {
+        float t = r / cos_sigma;
+        float u = a * cos_sigma / r;
+        float z = u * u;
+        float v_t = t * t * horizon_poly(0.0, t * t).x;
+        float y = HORIZON_HALF_PI * (1.0 + z) - u * (2.0 + z * (0.666666687 - z * horizon_poly(0.0, z).x));
+        beyond = t * (0.666666687 - u * y - v_t) / ((1.0 - a) * (1.0 + a));
     }
-    return whole + HORIZON_INV_PI * share * beyond;
+    return whole + HORIZON_INV_PI * r2 * beyond;
 }
 
 #endif

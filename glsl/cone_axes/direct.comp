@@ -58,6 +58,6 @@ ConeAxes cone_axes(float half_x, float half_y, vec3 center)
     }
     lambda = max(lambda, k2.z);
 
-    vec2 tangents = cone_tangents(h2, k2, lambda);
+    vec2 tangents = cone_tangents(vec2(half_x, half_y), center, lambda);
     return ConeAxes(cone_axis(h2, center, lambda), tangents.x, tangents.y);
 }

@@ -41,6 +41,6 @@ ConeAxes cone_axes(float half_x, float half_y, vec3 center)
     mu = clamp(mu, CONE_SMALLEST, 1.0);
 
     float lambda = c2.z / mu;
-    vec2 tangents = cone_tangents(h2, c2, lambda);
+    vec2 tangents = cone_tangents(vec2(half_x, half_y), center, lambda);
     return ConeAxes(cone_axis(h2, center, lambda), tangents.x, tangents.y);
 }

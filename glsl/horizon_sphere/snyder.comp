@@ -22,7 +22,10 @@ defines = { SATURATED = 1 }
 // sin^2 sigma - cos^2 gamma below 0, unless SATURATED. Which case holds is decided between angles, to a rounding.
 // Source: Snyder, "Area Light Sources for Real-Time Graphics", Microsoft Research MSR-TR-96-11, 1996.
 // Bound: absolute, a few roundings of sin sigma, plus a root of a rounding where gamma nears pi/2 (small spheres).
-// Measured: -
+// Measured: failed, and worst absolute error where all are finite; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
+//                             scene        grazing        horizon          small      near_full           edge
+//   snyder                  80x inf     33.5 % inf     1.29 % inf     2.24 % inf        49x inf     24.9 % inf
+//   snyder_saturated       0 1.3e-4       0 1.2e-4       0 1.2e-4       0 9.6e-7       0 1.2e-4 2.83 % 1.0e+00
 
 #include "common/horizon_sphere.glsl"
 

@@ -33,14 +33,24 @@ impl Table {
 
 const SPHERE_LUT_SIDE: u32 = 64;
 
-static TABLES: [Table; 1] = [Table {
-    name: "sphere_lut",
-    summary: "irradiance of a horizon-clipped sphere over its form factor; x: cosine -1..1, y: form factor 0..1",
-    width: SPHERE_LUT_SIDE,
-    height: SPHERE_LUT_SIDE,
-    channels: 1,
-    texels: LazyLock::new(|| clipped_sphere::form_factor_table(SPHERE_LUT_SIDE as usize).into()),
-}];
+static TABLES: [Table; 2] = [
+    Table {
+        name: "sphere_lut",
+        summary: "irradiance of a horizon-clipped sphere over its form factor; x: cosine -1..1, y: form factor 0..1",
+        width: SPHERE_LUT_SIDE,
+        height: SPHERE_LUT_SIDE,
+        channels: 1,
+        texels: LazyLock::new(|| clipped_sphere::table_by_form_factor(SPHERE_LUT_SIDE as usize).into()),
+    },
+    Table {
+        name: "sphere_lut_solid_angle",
+        summary: "the same; x: cosine -1..1, y: solid angle over the hemisphere's, 0..1",
+        width: SPHERE_LUT_SIDE,
+        height: SPHERE_LUT_SIDE,
+        channels: 1,
+        texels: LazyLock::new(|| clipped_sphere::table_by_solid_angle(SPHERE_LUT_SIDE as usize).into()),
+    },
+];
 
 /// Every built-in table, sorted by name.
 pub fn tables() -> &'static [Table] {

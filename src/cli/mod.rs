@@ -5,7 +5,9 @@
 
 mod count;
 mod devices;
+mod draft;
 mod eval;
+mod fit;
 mod list;
 mod machine;
 mod run;
@@ -70,6 +72,10 @@ enum Verb {
     /// with the columns oracle.<column> (17 digits) and <variant>.<column> (9 digits), which read back to the same
     /// bits. A mistake anywhere in the input leaves no output at all.
     Eval(eval::Arguments),
+    /// Fit tables that shaders sample
+    ///
+    /// One material so far; 'rootq fit ggx --help' says what its table holds.
+    Fit(fit::Arguments),
 }
 
 /// Runs the program on the process's arguments.
@@ -96,6 +102,7 @@ pub fn main() -> ExitCode {
         Verb::Audit(arguments) => run::run(&arguments, run::Halves::Audit, &stop),
         Verb::Bench(arguments) => run::run(&arguments, run::Halves::Bench, &stop),
         Verb::Eval(arguments) => eval::eval(&arguments, &stop),
+        Verb::Fit(arguments) => fit::fit(&arguments, &stop),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

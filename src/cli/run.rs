@@ -252,7 +252,7 @@ fn measure(
 }
 
 /// A progress bar on standard error; invisible where that is no terminal.
-fn bar(length: u64, message: &str, tail: &str) -> ProgressBar {
+pub(super) fn bar(length: u64, message: &str, tail: &str) -> ProgressBar {
     let bar = ProgressBar::new(length).with_message(message.to_owned());
     let shape = if length == 0 { "{spinner}" } else { "{wide_bar}" };
     if let Ok(style) = ProgressStyle::with_template(&format!("{{msg:30}} {shape} {tail}")) {

@@ -29,6 +29,7 @@ use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::cubic::{POSITIVE_ROOT_BOUND, positive_root};
 use crate::numeric::exact;
+use crate::numeric::twofold::two_product;
 use crate::sample::{Draw, landmarks};
 
 pub(super) struct ConeAxes;
@@ -204,7 +205,7 @@ impl Cone {
     /// lambda within [`POSITIVE_ROOT_BOUND`]; exactly 0 where the origin lies in the light.
     fn lambda(&self) -> f64 {
         let Cone { h2: [a, b], c2: [x, y, z] } = *self;
-        let pair = |u: f64, v: f64| exact::two_product(u, v);
+        let pair = two_product;
         let ((ab, ab_), (ay, ay_), (az, az_), (bx, bx_), (bz, bz_)) =
             (pair(a, b), pair(a, y), pair(a, z), pair(b, x), pair(b, z));
         let c2 = exact::sum(&[a, b, -x, -y, -z]);

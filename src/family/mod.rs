@@ -7,6 +7,7 @@ mod horizon_sphere;
 mod ltc_line;
 mod ltc_polygon;
 mod problem;
+mod sym3_eigen;
 
 pub use problem::{
     CERTIFIED, Landmark, MAX_COMPONENTS, MAX_OUTPUTS, Output, Problem, Quantity, Relation, Scenario, Truth,
@@ -20,6 +21,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &horizon_sphere::HorizonSphere,
     &ltc_line::LtcLine,
     &ltc_polygon::LtcPolygon,
+    &sym3_eigen::Sym3Eigen,
 ];
 
 /// The family of that name.

@@ -1,5 +1,5 @@
-//! Pure mathematics: spacing of floating-point formats, exact sums and products, double-double numbers, quadrature,
-//! cubics, and the integrals that several families share.
+//! Pure mathematics: spacing of floating-point formats, exact sums and products, quadrature, cubics, and the
+//! integrals that several families share.
 
 pub mod binary16;
 pub mod clipped_sphere;
@@ -11,3 +11,5 @@ pub mod line_integral;
 pub mod polygon_irradiance;
 pub mod products;
 pub mod spacing;
+pub mod symmetric3;
+pub mod twofold;
