@@ -1,6 +1,7 @@
 //! The problems: one file each, and the slice that lists them.
 
 mod ellipse_axes;
+mod ltc_disk;
 mod problem;
 
 pub use problem::{
@@ -8,7 +9,7 @@ pub use problem::{
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] = &[&ellipse_axes::EllipseAxes];
+pub static FAMILIES: &[&dyn Problem] = &[&ellipse_axes::EllipseAxes, &ltc_disk::LtcDisk];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {
