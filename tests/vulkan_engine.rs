@@ -4,12 +4,11 @@
 //! validation message: leaked objects and wrong synchronisation show there.
 #![allow(unsafe_code, reason = "a compiler's C interface and one environment variable")]
 
+mod drivers;
 mod glsl;
 
-use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
-use std::time::Instant;
 
 use rootq::catalog::Kernel;
 use rootq::device::vulkan::{Instance, Options, VulkanDevice};
@@ -57,24 +56,9 @@ fn install_drivers() {
         if std::env::var_os("VK_DRIVER_FILES").is_some() || std::env::var_os("VK_ICD_FILENAMES").is_some() {
             return;
         }
-        let lavapipe = std::fs::read_dir("/usr/share/vulkan/icd.d")
-            .into_iter()
-            .flatten()
-            .flatten()
-            .map(|entry| entry.path())
-            .find(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("lvp_icd.")))
-            .expect("lavapipe is not installed (Debian: apt-get install mesa-vulkan-drivers)");
-        let swiftshader: PathBuf =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("target/swiftshader/vk_swiftshader_icd.json");
-        assert!(
-            swiftshader.exists(),
-            "SwiftShader is not at {} (Debian: unpack libvk_swiftshader.so and vk_swiftshader_icd.json \
-             from the package chromium-common there)",
-            swiftshader.display()
-        );
-        let both = std::env::join_paths([lavapipe, swiftshader]).expect("paths without a colon");
-        // SAFETY: every test comes through here before it opens an instance, and the others wait; nobody else
-        // in this process reads or writes the environment meanwhile.
+        let both = drivers::both().unwrap_or_else(|message| panic!("{message}"));
+        // SAFETY: every test comes through here before it opens an instance, and the others wait; nobody else in this
+        // process reads or writes the environment meanwhile.
         unsafe { std::env::set_var("VK_DRIVER_FILES", both) };
     });
 }
@@ -396,43 +380,5 @@ fn no_instance(validation: bool) -> Error {
     match Instance::open(validation) {
         Err(error) => error,
         Ok(instance) => instance.choose(None).expect_err("a device"),
-    }
-}
-
-/// What a chunk costs beyond its dispatches. Run with `--ignored --nocapture`.
-#[test]
-#[ignore = "a measurement"]
-fn overhead_of_a_chunk() {
-    install_drivers();
-    let instance = Instance::open(false).expect("a Vulkan loader");
-    let body = "for (uint c = 0; c < 8; ++c) o[c * stride + k] = i[c % 6 * stride + k];";
-    let kernel = kernel("test/copy", body, 6, 8);
-    let rows: Vec<f32> = (0..6 << 20).map(|value| value as f32).collect();
-    for facts in instance.devices().expect("devices") {
-        for force_staging in [false, true] {
-            let options = Options { force_staging, ..Options::default() };
-            let device = VulkanDevice::open_with(&instance, facts.index, options).expect("a device");
-            println!("{}, staging {force_staging}", facts.name);
-            let program = device.program(&kernel).expect("a program");
-            for round in 0..8 {
-                let start = Instant::now();
-                let inputs = device.upload(&rows, 6).expect("inputs");
-                let uploaded = start.elapsed();
-                let pending = device.submit(&program, &inputs).expect("a submission");
-                let submitted = start.elapsed();
-                let outputs = device.wait(pending).expect("outputs");
-                let finished = start.elapsed();
-                let sum: f64 =
-                    (0..8).flat_map(|column| outputs.column(column)).map(|&value| f64::from(value)).sum();
-                let read = start.elapsed();
-                println!(
-                    "{round}: upload {uploaded:?}, submit {:?}, wait {:?} of which {:?}, read {:?} ({sum:e})",
-                    submitted - uploaded,
-                    finished - submitted,
-                    outputs.elapsed().time,
-                    read - finished
-                );
-            }
-        }
     }
 }

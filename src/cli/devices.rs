@@ -8,7 +8,8 @@ use crate::report;
 
 /// Lists every device the Vulkan loader finds, in the order of '--device' indices.
 ///
-/// VK_DRIVER_FILES chooses the drivers, as for any Vulkan program.
+/// VK_DRIVER_FILES chooses the drivers, as for any Vulkan program; ROOTQ_VULKAN_LOADER names another loader library
+/// than the system's.
 #[derive(Args, Debug)]
 pub(super) struct Arguments {
     /// Everything known of each device, as a JSON array
