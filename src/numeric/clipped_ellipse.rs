@@ -92,7 +92,8 @@ impl Cone {
         }
         let principal = self.principal();
         if self.dual[2].value() <= 0.0 {
-            let value = libm::sqrt(self.minus_det / principal.l / principal.gap) * principal.axes.z_axis.z;
+            let factor = libm::sqrt(self.minus_det / principal.l / principal.gap);
+            let value = (factor * principal.axes.z_axis.z).min(1.0);
             let gradient = principal.gradient(0.0, TAU);
             return Irradiance { value, bound: 24.0 * EPS * value, escalated: false, gradient };
         }
@@ -214,7 +215,7 @@ impl Principal {
         let dphi = libm::atan2(2.0 * area, dot);
 
         let terms = [heights.x * ix, heights.y * iy, heights.z * iz, dphi];
-        let value = (terms.iter().sum::<f64>() / TAU).max(0.0);
+        let value = (terms.iter().sum::<f64>() / TAU).clamp(0.0, 1.0);
         let bound = 8.0 * EPS / TAU * terms.iter().map(|term| term.abs()).sum::<f64>();
         let start = libm::atan2(libm::sqrt(small) * sin1, libm::sqrt(big) * cos1);
         let gradient = self.gradient(start, turn);
