@@ -16,6 +16,8 @@
 #ifndef ROOTQ_CLIPPED_ELLIPSE
 #define ROOTQ_CLIPPED_ELLIPSE
 
+#include "common/arctangent.glsl"
+
 const float CLIPPED_PI = 3.14159265358979;
 
 // asinh(z)/z: within 1e-7. Below 1/2 by its series, whose next term is 0.0139 z^12.
@@ -38,7 +40,7 @@ float clipped_ellipse(vec3 heights, vec2 e, float l, float szz)
     float inverse_swing = inversesqrt(middle * middle + szz);
     float cos_d = -middle * inverse_swing;
     float sin_d = sqrt(szz) * inverse_swing;
-    vec2 top = dot(sides, sides) > 0.0 ? normalize(sides) : vec2(1.0, 0.0);
+    vec2 top = dot(sides, sides) > 1.0e-30 ? normalize(sides) : vec2(1.0, 0.0);
 
     float A = l + e.x;
     float B = l + e.y;
@@ -57,10 +59,10 @@ float clipped_ellipse(vec3 heights, vec2 e, float l, float szz)
     float G = 2.0 * top.y * sin_d / B;
     float y = G * sqrt(k * B);
     float x = 1.0 + k / B * (top.x * top.x - sin_d * sin_d);
-    float Iy = -root.x * root_l * G * (abs(y) > 1.0e-4 * x ? atan(y, x) / y : 1.0 / x);
+    float Iy = -root.x * root_l * G * (abs(y) > 1.0e-4 * x ? arctangent(y, x) / y : 1.0 / x);
 
     float root_AB = sqrt(A) * sqrt(B);
-    float turn = atan(2.0 * root_AB * sin_d * cos_d, dot(AB, u1 * u2));
+    float turn = arctangent(2.0 * root_AB * sin_d * cos_d, dot(AB, u1 * u2));
     turn = cos_d < 0.0 ? turn + 2.0 * CLIPPED_PI : turn;
     float Iz = root.x * root.y / root_AB * turn;
 
@@ -68,7 +70,7 @@ float clipped_ellipse(vec3 heights, vec2 e, float l, float szz)
     vec2 m = root * even;
     vec2 s = root * odd;
     float area = length(vec3(root_l * s, m.x * s.y - m.y * s.x));
-    float dphi = atan(2.0 * area, dot(m, m) + l - dot(s, s));
+    float dphi = arctangent(2.0 * area, dot(m, m) + l - dot(s, s));
 
     float sum = dot(heights, vec3(Ix, Iy, Iz)) + dphi;
     return clamp(sum * (0.5 / CLIPPED_PI), 0.0, 1.0);

@@ -26,22 +26,29 @@ struct DiskCone {
     float form;     // irradiance through a plane across the axis
 };
 
-// One power of two for all three vectors: their largest component becomes 1..2.
-void disk_normalize(inout vec3 C, inout vec3 V1, inout vec3 V2)
+// The images under m, all three by one power of two so that their largest component is 1..2. The light is scaled before it
+// is multiplied, so nothing overflows, whatever its unit, for matrices up to 2^125.
+void disk_image(mat3 m, inout vec3 C, inout vec3 V1, inout vec3 V2)
 {
-    float largest = max(largest_component(C), max(largest_component(V1), largest_component(V2)));
-    float scale = scale_to_one(largest);
+    float scale = scale_to_one(largest_component(max(abs(C), max(abs(V1), abs(V2)))));
+    C = m * (C * scale);
+    V1 = m * (V1 * scale);
+    V2 = m * (V2 * scale);
+    scale = scale_to_one(largest_component(max(abs(C), max(abs(V1), abs(V2)))));
     C *= scale;
     V1 *= scale;
     V2 *= scale;
 }
+
+// Squared areas below this, for vectors of length 1, are beyond what f32 resolves: such a light is dark.
+const float DISK_FLAT = 1.0e-30;
 
 DiskCone disk_cone(vec3 C, vec3 V1, vec3 V2)
 {
     DiskCone cone = DiskCone(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0);
     vec3 N = cross(V1, V2);
     float area2 = dot(N, N);
-    if (!(area2 > 0.0)) {
+    if (!(area2 > DISK_FLAT)) {
         return cone;
     }
     vec3 n = N * inversesqrt(area2);
@@ -115,7 +122,8 @@ void disk_principal(DiskCone cone, vec3 C, vec3 V1, vec3 V2, out vec3 heights, o
 
     // W1 = cosine B1 + sine B2 from half the angle of (tau, s12).
     vec2 half_angle = tau >= 0.0 ? vec2(tau + h, s12) : vec2(s12, h - tau);
-    half_angle = h > 0.0 ? normalize(half_angle) : vec2(1.0, 0.0);
+    // A circle up to rounding: any axes do, and squares of what is left would leave the range.
+    half_angle = h > max(1.0e-9 * (s11 + s22), 1.0e-18) ? normalize(half_angle) : vec2(1.0, 0.0);
     heights = vec3(half_angle.y * rise, half_angle.x * rise, W.z);
 }
 

@@ -13,7 +13,7 @@ summary = "The direct cone; the horizon by a rational fit"
 defines = { HORIZON = 2 }
 ---*/
 
-// Domain: any light and matrix whose images have components up to 2^127; edge-on and empty lights give 0.
+// Domain: any finite light and matrix; edge-on and empty lights give 0.
 // Source: ours.
 // Bound: the exact horizon is off by about 2^-21 of the light's share of the hemisphere, and by what N = V1 x V2 loses
 // for needles, 2^-24 aspect. The sphere of equal form factor is an approximation: up to 0.01 for a light cut by the
@@ -29,10 +29,10 @@ defines = { HORIZON = 2 }
 
 float ltc_disk(mat3 minv, vec3 center, vec3 v1, vec3 v2)
 {
-    vec3 C = minv * center;
-    vec3 V1 = minv * v1;
-    vec3 V2 = minv * v2;
-    disk_normalize(C, V1, V2);
+    vec3 C = center;
+    vec3 V1 = v1;
+    vec3 V2 = v2;
+    disk_image(minv, C, V1, V2);
 
     float swing = length(vec2(V1.z, V2.z));
     if (C.z <= -swing) {

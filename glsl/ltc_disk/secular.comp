@@ -16,7 +16,7 @@ defines = { HORIZON = 2 }
 // The ellipse's own axes first, then the confocal coordinate of the point in their frame, whose equation has positive
 // terms only.
 //
-// Domain: any light and matrix whose images have components up to 2^127; edge-on and empty lights give 0.
+// Domain: any finite light and matrix; edge-on and empty lights give 0.
 // Source: ours; the angle as in Jacobi's method.
 // Bound: as `direct_exact`.
 // Measured: -
@@ -31,15 +31,15 @@ defines = { HORIZON = 2 }
 
 float ltc_disk(mat3 minv, vec3 center, vec3 v1, vec3 v2)
 {
-    vec3 C = minv * center;
-    vec3 V1 = minv * v1;
-    vec3 V2 = minv * v2;
-    disk_normalize(C, V1, V2);
+    vec3 C = center;
+    vec3 V1 = v1;
+    vec3 V2 = v2;
+    disk_image(minv, C, V1, V2);
 
     float swing = length(vec2(V1.z, V2.z));
     vec3 N = cross(V1, V2);
     float area2 = dot(N, N);
-    if (C.z <= -swing || !(area2 > 0.0)) {
+    if (C.z <= -swing || !(area2 > DISK_FLAT)) {
         return 0.0;
     }
     float d11 = dot(V1, V1);
