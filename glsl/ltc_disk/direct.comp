@@ -3,10 +3,19 @@ summary = "Cone from conjugate semi-axes without a 2D eigensystem; secular equat
 source  = "ours"
 [[variant]]
 name = "direct_exact"
+defines = { EXACT_HORIZON = 1 }
+[[variant]]
+name = "direct_lut"
+summary = "The direct cone; the horizon by the 64 x 64 table of spheres, bilinear in the shader"
+tables = { sphere_lut = "buffer" }
+[[variant]]
+name = "direct_lut_sampler"
+summary = "The direct cone; the horizon by the table of spheres through a sampler"
+tables = { sphere_lut = "image" }
 [[variant]]
 name = "direct_sphere_analytic"
-summary = "The direct cone; an equal-area sphere clipped in closed form"
-defines = { HORIZON = 1 }
+summary = "The direct cone; an equal-area sphere clipped by the stable closed form"
+defines = { HORIZON = 3 }
 [[variant]]
 name = "direct_rational"
 summary = "The direct cone; the horizon by a rational fit"
@@ -20,7 +29,7 @@ defines = { HORIZON = 2 }
 // horizon.
 // Measured: -
 
-#ifdef HORIZON
+#ifndef EXACT_HORIZON
 #include "common/horizon_choice.glsl"
 #else
 #include "common/clipped_ellipse.glsl"
@@ -42,8 +51,8 @@ float ltc_disk(mat3 minv, vec3 center, vec3 v1, vec3 v2)
     if (!(cone.l > 0.0)) {
         return 0.0;
     }
-#ifdef HORIZON
-    return horizon_sphere(cone.axis.z, cone.form);
+#ifndef EXACT_HORIZON
+    return horizon_of_sphere(cone.axis.z, cone.form);
 #else
     if (C.z >= swing) {
         return cone.form * max(cone.axis.z, 0.0);

@@ -3,10 +3,19 @@ summary = "Stable 2D step (Jacobi's angle, area from the cross product), secular
 source  = "ours"
 [[variant]]
 name = "secular_exact"
+defines = { EXACT_HORIZON = 1 }
+[[variant]]
+name = "secular_lut"
+summary = "The secular cone; the horizon by the 64 x 64 table of spheres, bilinear in the shader"
+tables = { sphere_lut = "buffer" }
+[[variant]]
+name = "secular_lut_sampler"
+summary = "The secular cone; the horizon by the table of spheres through a sampler"
+tables = { sphere_lut = "image" }
 [[variant]]
 name = "secular_sphere_analytic"
-summary = "The secular cone; an equal-area sphere clipped in closed form"
-defines = { HORIZON = 1 }
+summary = "The secular cone; an equal-area sphere clipped by the stable closed form"
+defines = { HORIZON = 3 }
 [[variant]]
 name = "secular_rational"
 summary = "The secular cone; the horizon by a rational fit"
@@ -21,7 +30,7 @@ defines = { HORIZON = 2 }
 // Bound: as `direct_exact`.
 // Measured: -
 
-#ifdef HORIZON
+#ifndef EXACT_HORIZON
 #include "common/horizon_choice.glsl"
 #else
 #include "common/clipped_ellipse.glsl"
@@ -69,8 +78,8 @@ float ltc_disk(mat3 minv, vec3 center, vec3 v1, vec3 v2)
     // sqrt(e1 e3/((l + e1)(l + e3))) in the frame's own terms.
     float form = abs(c.z) * sqrt(h2.x / (h2.x + l)) * sqrt(h2.y / (h2.y + l)) * inversesqrt(dot(c2.xy, w * w) + c2.z);
     form = min(form, 1.0);
-#ifdef HORIZON
-    return horizon_sphere(z, form);
+#ifndef EXACT_HORIZON
+    return horizon_of_sphere(z, form);
 #else
     if (C.z >= swing) {
         return form * max(z, 0.0);

@@ -2,7 +2,12 @@
 summary = "sqrt(Q) ordered with the 1e-4 shortcut, Blinn's cubic, equal-area sphere at the horizon: the published pipeline"
 source  = "Heitz & Hill, Real-Time Line- and Disk-Light Shading with Linearly Transformed Cosines, SIGGRAPH 2017 course; cubic by Blinn and Peters"
 [[variant]]
+name = "talk2017"
+tables = { sphere_lut = "image" }
+[[variant]]
 name = "talk2017_sphere_analytic"
+summary = "The published pipeline with the closed form of the clipped sphere"
+defines = { HORIZON = 1 }
 [[variant]]
 name = "talk2017_rational"
 summary = "The published pipeline with a rational fit at the horizon"
@@ -10,22 +15,27 @@ defines = { HORIZON = 2 }
 [[variant]]
 name = "talk2017_discriminant"
 summary = "The published pipeline with the cubic's discriminant clamped to >= 0"
+tables = { sphere_lut = "image" }
 defines = { CLAMP_DISCRIMINANT = 1 }
 [[variant]]
 name = "talk2017_form_factor"
 summary = "The published pipeline with the form factor clamped to >= 0 (a web engine)"
+tables = { sphere_lut = "image" }
 defines = { CLAMP_FORM_FACTOR = 1 }
 [[variant]]
 name = "talk2017_scaled"
 summary = "Shortcut at 7e-4, cubic for e/b, discriminant and form factor >= 0, third axis normalised (a content suite)"
+tables = { sphere_lut = "image" }
 defines = { SHORTCUT = "7e-4", OVER_B = 1, CLAMP_DISCRIMINANT = 1, CLAMP_FORM_FACTOR = 1, NORMALIZE_THIRD = 1 }
 [[variant]]
 name = "talk2017_radicands"
 summary = "Shortcut at 1e-3, det Q, discriminant and tangents' radicands >= 0 (a hobby engine)"
+tables = { sphere_lut = "image" }
 defines = { SHORTCUT = "1e-3", CLAMP_DET = 1, CLAMP_DISCRIMINANT = 1, CLAMP_TANGENTS = 1 }
 [[variant]]
 name = "talk2017_floors"
 summary = "Absolute floors of 1e-7, everything clamped, the result sanitised (a C++ engine's HLSL)"
+tables = { sphere_lut = "image" }
 defines = { FLOOR = "1e-7", CLAMP_DET = 1, CLAMP_DISCRIMINANT = 1, CLAMP_RADICANDS = 1, CLAMP_TANGENTS = 1, CLAMP_FORM_FACTOR = 1, SANITIZE = 1 }
 ---*/
 
@@ -135,7 +145,7 @@ float ltc_disk(mat3 minv, vec3 center, vec3 v1, vec3 v2)
 #ifdef CLAMP_FORM_FACTOR
     form = max(form, 0.0);
 #endif
-    float irradiance = horizon_sphere(z, form);
+    float irradiance = horizon_of_sphere(z, form);
 #ifdef SANITIZE
     irradiance = isnan(irradiance) || isinf(irradiance) ? 0.0 : irradiance;
 #endif

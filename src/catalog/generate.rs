@@ -1,10 +1,12 @@
-//! The GLSL around a variant's function: result struct before it, buffers and `main()` after it.
+//! The GLSL around a variant's function: tables and result struct before it, buffers and `main()` after it.
 //!
 //! No binding is written by hand anywhere else; devices share only the constants of [`super::kernel`].
 
 use std::fmt::Write;
 
-use super::kernel::{INPUTS_BINDING, LOCAL_SIZE, OUTPUTS_BINDING};
+use super::kernel::{
+    COLUMNS_SET, INPUTS_BINDING, LOCAL_SIZE, OUTPUTS_BINDING, TABLES_SET, TableBinding, TableForm,
+};
 use super::{Define, Signature, Type};
 
 /// Text before the variant's own: version, extensions, definitions, result struct.
@@ -30,12 +32,44 @@ pub(super) fn prologue<'a>(
     text
 }
 
+/// Declarations of the tables, before the variant's own text. A table `t` of either form has its size `t_size`;
+/// besides
+///
+/// - a buffer has `T_BUFFER` defined and `t_texel(ivec2)`, which clamps to the edge, as a float or a vec4;
+/// - an image has `T_IMAGE` defined and is the sampler2D `t`.
+pub(super) fn tables(bindings: &[TableBinding]) -> String {
+    let mut text = String::new();
+    for table in bindings {
+        let TableBinding { name, binding, width, height, .. } = table;
+        let upper = name.to_uppercase();
+        let texel = if table.channels == 4 { "vec4" } else { "float" };
+        _ = writeln!(text, "const ivec2 {name}_size = ivec2({width}, {height});");
+        _ = match table.form {
+            TableForm::Buffer => writeln!(
+                text,
+                "#define {upper}_BUFFER 1\n\
+                 layout(std430, set = {TABLES_SET}, binding = {binding}) readonly buffer RootqTable{binding} \
+                 {{ {texel} rootq_{name}[]; }};\n\
+                 {texel} {name}_texel(ivec2 at) {{\n\
+                 \x20   at = clamp(at, ivec2(0), {name}_size - 1);\n\
+                 \x20   return rootq_{name}[at.y * {name}_size.x + at.x];\n}}"
+            ),
+            TableForm::Image => writeln!(
+                text,
+                "#define {upper}_IMAGE 1\n\
+                 layout(set = {TABLES_SET}, binding = {binding}) uniform sampler2D {name};"
+            ),
+        };
+    }
+    text
+}
+
 /// Text after the variant's own: buffers, push constants and `main()`.
 pub(super) fn epilogue(signature: &Signature) -> String {
     let mut text = format!(
         "\nlayout(local_size_x = {LOCAL_SIZE}) in;\n\
-         layout(std430, set = 0, binding = {INPUTS_BINDING}) readonly buffer RootqInputs {{ float rootq_inputs[]; }};\n\
-         layout(std430, set = 0, binding = {OUTPUTS_BINDING}) writeonly buffer RootqOutputs {{ float rootq_outputs[]; }};\n\
+         layout(std430, set = {COLUMNS_SET}, binding = {INPUTS_BINDING}) readonly buffer RootqInputs {{ float rootq_inputs[]; }};\n\
+         layout(std430, set = {COLUMNS_SET}, binding = {OUTPUTS_BINDING}) writeonly buffer RootqOutputs {{ float rootq_outputs[]; }};\n\
          layout(push_constant) uniform RootqRange {{ uint rootq_first; uint rootq_count; uint rootq_stride; }};\n\
          void main() {{\n\
          \x20   if (gl_GlobalInvocationID.x >= rootq_count) return;\n\
