@@ -1,11 +1,8 @@
 //! The problems: one file each, and the slice that lists them.
 
 mod ellipse_axes;
-<<<<<<< HEAD
-mod ltc_disk;
-=======
 mod horizon_sphere;
->>>>>>> lut
+mod ltc_disk;
 mod problem;
 
 pub use problem::{
@@ -13,11 +10,8 @@ pub use problem::{
 };
 
 /// Every family, sorted by name.
-<<<<<<< HEAD
-pub static FAMILIES: &[&dyn Problem] = &[&ellipse_axes::EllipseAxes, &ltc_disk::LtcDisk];
-=======
-pub static FAMILIES: &[&dyn Problem] = &[&ellipse_axes::EllipseAxes, &horizon_sphere::HorizonSphere];
->>>>>>> lut
+pub static FAMILIES: &[&dyn Problem] =
+    &[&ellipse_axes::EllipseAxes, &horizon_sphere::HorizonSphere, &ltc_disk::LtcDisk];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {
