@@ -346,7 +346,7 @@ class Clipped:
 
     @classmethod
     def integral(cls, c, v1, v2):
-        """From exact rational vectors."""
+        """From exact rational vectors, or from mpf vectors of DIGITS + 10 digits."""
 
         def cross(a, b):
             return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
@@ -356,10 +356,14 @@ class Clipped:
         if volume == 0 or (c[2] <= 0 and c[2] ** 2 >= swing2):
             return mpf(0)
         mp.dps = cls.DIGITS + 10
-        number = lambda f: mpf(f.numerator) / f.denominator
+
+        def number(f):
+            return mpf(f.numerator) / f.denominator if isinstance(f, Fraction) else f
+
+        volume = number(volume)
         swing = mp.sqrt(number(swing2))
-        cz = number(c[2])
         c, v1, v2 = ([number(f) for f in v] for v in (c, v1, v2))
+        cz = c[2]
         cos, sin = (v1[2] / swing, v2[2] / swing) if swing else (mpf(1), mpf(0))
         u1 = [cos * p + sin * q for p, q in zip(v1, v2)]
         u2 = [cos * q - sin * p for p, q in zip(v1, v2)]
@@ -393,7 +397,7 @@ class Clipped:
         total = mpf(0)
         for _ in range(4000):
             if not pieces:
-                return abs(number(volume)) / mp.pi * total
+                return abs(volume) / mp.pi * total
             low, high, whole = pieces.pop()
             mid = (low + high) / 2
             halves = rule(low, mid), rule(mid, high)
@@ -681,10 +685,208 @@ def horizon_sphere():
     )
 
 
+def tangent_disk(c, r2):
+    """The disk that covers the sphere of centre c and squared radius r2 < |c|^2, as mpf vectors."""
+    mp.dps = Clipped.DIGITS + 10
+    c = [mpf(x.numerator) / x.denominator if isinstance(x, Fraction) else x for x in c]
+    r2 = mpf(r2.numerator) / r2.denominator if isinstance(r2, Fraction) else r2
+    d2 = sum(x * x for x in c)
+    n = [x / mp.sqrt(d2) for x in c]
+    k = min(range(3), key=lambda i: abs(n[i]))
+    u = [(1 if i == k else 0) - n[k] * n[i] for i in range(3)]
+    length = mp.sqrt(sum(x * x for x in u))
+    u = [x / length for x in u]
+    v = [n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]]
+    r = mp.sqrt(r2 * (1 - r2 / d2))
+    return [x * (1 - r2 / d2) for x in c], [x * r for x in u], [x * r for x in v]
+
+
+def ltc_sphere():
+    """Irradiance of the part of a sphere above the horizon, after Minv: the tangent circle's disk, see Clipped."""
+    per_scenario = 24
+
+    def row(minv, c, r):
+        return [to_f32(x) for part in (minv, c, [r]) for x in part]
+
+    def upper(direction, length):
+        return [length * direction[0], length * direction[1], length * abs(direction[2])]
+
+    def scene(matrix, off):
+        def draw(rng):
+            rows = []
+            for _ in range(per_scenario):
+                r = magnitude(rng, -4, 1)
+                rows.append(row(matrix(rng), upper(rotation(rng)[0], r * (1.0 + off(rng))), r))
+            return rows
+
+        return draw
+
+    ggx = scene(lambda rng: lobe_matrix(rng, 0.05), lambda rng: magnitude(rng, -4, 5))
+    diffuse = scene(lambda rng: IDENTITY, lambda rng: magnitude(rng, -4, 5))
+    grazing = scene(lambda rng: lobe_matrix(rng, 0.003), lambda rng: magnitude(rng, -2, 4))
+    far = scene(lambda rng: lobe_matrix(rng, 0.1), lambda rng: magnitude(rng, 4, 17))
+    near_surface = scene(lambda rng: lobe_matrix(rng, 0.1), lambda rng: magnitude(rng, -17, -3))
+
+    def horizon(rng):
+        rows = []
+        for _ in range(per_scenario):
+            d, height = 1.01 + magnitude(rng, -3, 5), uniform(rng, -1.0, 1.0)
+            along = math.sqrt(d * d - height * height)
+            cos, sin = circle_point(rng)
+            minv = lobe_matrix(rng, 0.2) if rng.random() < 0.5 else IDENTITY
+            rows.append(row(minv, [along * cos, along * sin, height], 1.0))
+        return rows
+
+    def edge(rng):
+        rows = [row(IDENTITY, [0.5, 0.25, 0.125], 1.0), row(IDENTITY, [0.0] * 3, 1.0), row(IDENTITY, [0.0] * 3, 0.0)]
+        rows += [row(IDENTITY, [2.0, 3.0, 6.0], 7.0), row(IDENTITY, [2.0, 3.0, 6.0], 0.0)]
+        rows += [row(IDENTITY, [4.0, 0.0, z], 1.0) for z in (1.0, -1.0, 0.0, -2.0)]
+        rows += [row([1.0, 2.0, 3.0, 2.0, 4.0, 6.0, 0.0, 0.0, 1.0], [2.0, 3.0, 6.0], 1.0), row([0.0] * 9, [2.0, 3.0, 6.0], 1.0)]
+        for exponent in (-40, -20, 20, 40):
+            s = math.ldexp(1.0, exponent)
+            rows.append(row(IDENTITY, [2.0 * s, s, 0.5 * s], s))
+            rows.append(row([s, 0.0, 0.0, 0.0, s, 0.0, 0.0, 0.0, s], [2.0, 1.0, 0.5], 1.0))
+        while len(rows) < per_scenario:
+            rows.append(row(lobe_matrix(rng, 0.01), upper(rotation(rng)[0], 8.0), 1.0))
+        return rows
+
+    def truth(cells):
+        cells = [Fraction(c) for c in cells]
+        minv, c, r = cells[:9], cells[9:12], cells[12]
+        if r == 0:
+            return [mpf(0)]
+        if sum(x * x for x in c) <= r * r:
+            return [mpf(1)]
+        # Exactly dark: the image's lowest point is above none of the horizon.
+        up = [minv[2], minv[5], minv[8]]
+        height = sum(p * q for p, q in zip(up, c))
+        if height <= 0 and height**2 >= r * r * sum(p * p for p in up):
+            return [mpf(0)]
+        m = [[Fraction(minv[3 * k + i]) for k in range(3)] for i in range(3)]
+        det = sum(
+            m[0][k] * (m[1][(k + 1) % 3] * m[2][(k + 2) % 3] - m[1][(k + 2) % 3] * m[2][(k + 1) % 3]) for k in range(3)
+        )
+        if det == 0:
+            return [mpf(0)]
+        disk = tangent_disk(c, r * r)
+        minv = [mpf(x.numerator) / x.denominator for x in minv]
+        return [Clipped.integral(*(apply(minv, v) for v in disk))]
+
+    return Golden(
+        inputs=MINV_COLUMNS + xyz_columns("center") + ["radius"],
+        outputs=["irradiance"],
+        conditions=[],
+        scenarios={
+            "ggx": ggx,
+            "diffuse": diffuse,
+            "grazing": grazing,
+            "far": far,
+            "near_surface": near_surface,
+            "horizon": horizon,
+            "edge": edge,
+        },
+        truth=truth,
+    )
+
+
+def ltc_ellipsoid():
+    """Irradiance of the part of an ellipsoid above the horizon, after Minv: the unit sphere's tangent disk mapped by R D,
+    see Clipped."""
+    per_scenario = 24
+
+    def row(minv, c, q, r):
+        return [to_f32(x) for part in (minv, c, q, r) for x in part]
+
+    def quaternion(rng):
+        while True:
+            q = [uniform(rng, -1.0, 1.0) for _ in range(4)]
+            if 1e-2 < sum(x * x for x in q) <= 1.0:
+                return q
+
+    def matrix(q):
+        n = sum(x * x for x in q)
+        x, y, z, w = q
+        columns = (
+            (n - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)),
+            (2 * (x * y - z * w), n - 2 * (x * x + z * z), 2 * (y * z + x * w)),
+            (2 * (x * z + y * w), 2 * (y * z - x * w), n - 2 * (x * x + y * y)),
+        )
+        return [c / n for column in columns for c in column]
+
+    def scene(minv, radii, off):
+        def draw(rng):
+            rows = []
+            for _ in range(per_scenario):
+                q, r, d = quaternion(rng), radii(rng), rotation(rng)[0]
+                c = apply(matrix(q), [(1.0 + off(rng)) * p * s for p, s in zip(d, r)])
+                c = [-x for x in c] if c[2] < 0.0 else c
+                rows.append(row(minv(rng), c, q, r))
+            return rows
+
+        return draw
+
+    def round_radii(rng):
+        return [uniform(rng, 0.25, 1.0) for _ in range(3)]
+
+    ggx = scene(lambda rng: lobe_matrix(rng, 0.05), round_radii, lambda rng: magnitude(rng, -4, 4))
+    flat = scene(
+        lambda rng: lobe_matrix(rng, 0.3), lambda rng: [magnitude(rng, -10, 0) for _ in range(3)], lambda rng: magnitude(rng, -3, 4)
+    )
+    far = scene(lambda rng: lobe_matrix(rng, 0.3), round_radii, lambda rng: magnitude(rng, 4, 17))
+    near_surface = scene(lambda rng: IDENTITY, round_radii, lambda rng: magnitude(rng, -17, -3))
+
+    def edge(rng):
+        q = quaternion(rng)
+        rows = [row(IDENTITY, [0.1, 0.05, 0.0], q, [1.0, 0.5, 0.25]), row(IDENTITY, [0.0] * 3, q, [1.0, 1.0, 1.0])]
+        rows += [row(IDENTITY, [1.0, 1.0, 1.0], q, [1.0, 0.0, 0.0]), row(IDENTITY, [0.0, 0.0, -4.0], q, [1.0, 0.5, 0.25])]
+        rows += [row([1.0, 2.0, 3.0, 2.0, 4.0, 6.0, 0.0, 0.0, 1.0], [2.0, 3.0, 6.0], q, [1.0, 2.0, 0.5])]
+        rows += [row(IDENTITY, [2.0, 3.0, 6.0], [0.0] * 4, [1.0, 2.0, 4.0])]
+        rows += [row(IDENTITY, [2.0, 3.0, 6.0], [s, 0.0, 0.0, s], [1.0, 2.0, 4.0]) for s in (1.0, -3.0, 1e6, 1e-6)]
+        for exponent in (-30, -20, 20, 30):
+            s = math.ldexp(1.0, exponent)
+            rows.append(row(IDENTITY, [2.0 * s, s, 0.5 * s], q, [s, 0.5 * s, 0.25 * s]))
+        while len(rows) < per_scenario:
+            rows.append(row(lobe_matrix(rng, 0.01), [4.0, 2.0, 8.0], quaternion(rng), round_radii(rng)))
+        return rows
+
+    def truth(cells):
+        cells = [Fraction(c) for c in cells]
+        minv, c, q, r = cells[:9], cells[9:12], cells[12:16], cells[16:]
+        columns = matrix(q) if any(q) else [Fraction(int(i % 4 == 0)) for i in range(9)]
+        if sum(x == 0 for x in r) > 1:
+            return [mpf(0)]
+        b = [sum(columns[3 * k + i] * c[i] for i in range(3)) / r[k] for k in range(3)]
+        if sum(x * x for x in b) <= 1:
+            return [mpf(1)]
+        m = [[minv[3 * k + i] for k in range(3)] for i in range(3)]
+        det = sum(
+            m[0][k] * (m[1][(k + 1) % 3] * m[2][(k + 2) % 3] - m[1][(k + 2) % 3] * m[2][(k + 1) % 3]) for k in range(3)
+        )
+        up = [sum(m[2][i] * columns[3 * k + i] for i in range(3)) * r[k] for k in range(3)]
+        height = sum(p * s for p, s in zip(up, b))
+        if det == 0 or (height <= 0 and height**2 >= sum(p * p for p in up)):
+            return [mpf(0)]
+        disk = tangent_disk(b, Fraction(1))
+        real = lambda f: mpf(f.numerator) / f.denominator
+        through = [real(x) for x in columns]
+        outer = [real(x) for x in minv]
+        return [Clipped.integral(*(apply(outer, apply(through, [real(s) * p for s, p in zip(r, v)])) for v in disk))]
+
+    return Golden(
+        inputs=MINV_COLUMNS + xyz_columns("center") + [f"rotation_{c}" for c in "xyzw"] + xyz_columns("radius"),
+        outputs=["irradiance"],
+        conditions=[],
+        scenarios={"ggx": ggx, "flat": flat, "far": far, "near_surface": near_surface, "edge": edge},
+        truth=truth,
+    )
+
+
 FAMILIES = {
     "ellipse_axes": ellipse_axes,
     "horizon_sphere": horizon_sphere,
     "ltc_disk": ltc_disk,
+    "ltc_ellipsoid": ltc_ellipsoid,
+    "ltc_sphere": ltc_sphere,
 }
 
 # --- files -----------------------------------------------------------------------------------------------------------

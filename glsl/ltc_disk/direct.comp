@@ -29,37 +29,9 @@ defines = { HORIZON = 2 }
 // horizon.
 // Measured: -
 
-#ifndef EXACT_HORIZON
-#include "common/horizon_choice.glsl"
-#else
-#include "common/clipped_ellipse.glsl"
-#endif
-#include "common/disk_cone.glsl"
+#include "common/disk_direct.glsl"
 
 float ltc_disk(mat3 minv, vec3 center, vec3 v1, vec3 v2)
 {
-    vec3 C = center;
-    vec3 V1 = v1;
-    vec3 V2 = v2;
-    disk_image(minv, C, V1, V2);
-
-    float swing = length(vec2(V1.z, V2.z));
-    if (C.z <= -swing) {
-        return 0.0;
-    }
-    DiskCone cone = disk_cone(C, V1, V2);
-    if (!(cone.l > 0.0)) {
-        return 0.0;
-    }
-#ifndef EXACT_HORIZON
-    return horizon_of_sphere(cone.axis.z, cone.form);
-#else
-    if (C.z >= swing) {
-        return cone.form * max(cone.axis.z, 0.0);
-    }
-    vec3 heights;
-    vec2 e;
-    disk_principal(cone, C, V1, V2, heights, e);
-    return clipped_ellipse(heights, e, cone.l, (swing - C.z) * (swing + C.z));
-#endif
+    return disk_direct(minv, center, v1, v2);
 }

@@ -3,6 +3,8 @@
 mod ellipse_axes;
 mod horizon_sphere;
 mod ltc_disk;
+mod ltc_ellipsoid;
+mod ltc_sphere;
 mod problem;
 
 pub use problem::{
@@ -10,8 +12,13 @@ pub use problem::{
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] =
-    &[&ellipse_axes::EllipseAxes, &horizon_sphere::HorizonSphere, &ltc_disk::LtcDisk];
+pub static FAMILIES: &[&dyn Problem] = &[
+    &ellipse_axes::EllipseAxes,
+    &horizon_sphere::HorizonSphere,
+    &ltc_disk::LtcDisk,
+    &ltc_ellipsoid::LtcEllipsoid,
+    &ltc_sphere::LtcSphere,
+];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {

@@ -246,7 +246,7 @@ impl Principal {
             let (s1, s2) = (skew * cos - along * sin, skew * cos + along * sin);
             let root = libm::sqrt(delta);
             let width = 2.0 * along * sin;
-            let rational = width * (delta - s1 * s2) / ((s1 * s1 + delta) * (s2 * s2 + delta));
+            let rational = width / (s1 * s1 + delta) * ((delta - s1 * s2) / (s2 * s2 + delta));
             let angular = libm::atan2(root * width, delta + s1 * s2) / root;
             height * sin * along / (2.0 * delta) * (rational + angular)
         };
