@@ -125,7 +125,7 @@ impl Problem for LtcEllipsoid {
         let by_matrix = unit(minv.iter().fold(0.0, |largest, c| c.abs().max_element().max(largest)));
         let by_length = unit(center.abs().max_element().max(radius.abs().max_element()));
         let (m, c, r) = (minv.map(|column| column * by_matrix), center * by_length, radius * by_length);
-        let rotation = Rotation::new(&input[ROTATION..]);
+        let rotation = Rotation::new(&input[ROTATION..RADIUS]);
 
         let r2 = r.to_array().map(|r| Twofold::product(r, r));
         let axes = &rotation.columns;
