@@ -70,32 +70,37 @@ float cone_lambda(vec2 h2, vec3 c2)
 }
 
 // The unit mean direction, in the ellipse's frame, on the light's side: (cx/(hx^2 + lambda), cy/(hy^2 + lambda), cz/lambda).
+// Its largest component is brought to 1 first: beside the rim all of them can be small.
 vec3 cone_axis(vec2 h2, vec3 c, float lambda)
 {
-    vec2 w = lambda / (h2 + lambda);
-    return normalize(vec3(c.xy * w, c.z));
+    vec3 v = vec3(c.xy * (lambda / (h2 + lambda)), c.z);
+    vec3 size = abs(v);
+    return normalize(v / max(max(size.x, size.y), max(size.z, CONE_SMALLEST)));
 }
 
-// The tangents (major, minor) of the cone's half angles. With alpha = hx^2/lambda, beta = hy^2/lambda and p + q + r = 1,
+// The tangents (major, minor) of the cone's half angles. With p + q + r = 1 and squares measured in the longer
+// semi-axis, alpha = hx^2/h^2, beta = hy^2/h^2, the squares t1 >= t2 of the tangents are h^2/lambda times
 //
 //     t1 + t2 = alpha (q + r) + beta (p + r)
 //     t1 - t2 = hypot(alpha (q + r) - beta (p + r), 2 sqrt(alpha beta p q))
 //     t1 t2   = alpha beta r
 //
-// for the squares t1 >= t2 of the tangents. The one difference is squared beside what it is small against.
+// The one difference is squared beside what it is small against.
 vec2 cone_tangents(vec2 h2, vec3 c2, float lambda)
 {
     vec2 inverse = 1.0 / (h2 + lambda);
     float p = c2.x * inverse.x;
     float q = c2.y * inverse.y;
     float r = c2.z / lambda;
-    vec2 ab = h2 / lambda;
+    float longer = max(max(h2.x, h2.y), CONE_SMALLEST);
+    vec2 ab = h2 / longer;
     float f = ab.x * (q + r);
     float g = ab.y * (p + r);
     float t1 = 0.5 * (f + g + sqrt((f - g) * (f - g) + 4.0 * (ab.x * p) * (ab.y * q)));
+    float unit = sqrt(longer) * inversesqrt(lambda);
+    float minor = t1 > 0.0 ? sqrt(min(ab.x, ab.y) * (r / t1)) : 0.0;
     float major = sqrt(t1);
-    float minor = major > 0.0 ? sqrt(ab.x * r) * sqrt(ab.y) / major : 0.0;
-    return vec2(major, min(minor, major));
+    return unit * vec2(major, min(minor, major));
 }
 
 // Axis and tangents for semi-axes hx, hy >= 0 and any centre. The origin in the light itself sees a half space: the
@@ -105,7 +110,7 @@ void cone_secular(float hx, float hy, vec3 c, out vec3 axis, out float tan_major
     vec2 h2 = vec2(hx * hx, hy * hy);
     vec3 c2 = c * c;
     float lambda = cone_lambda(h2, c2);
-    if (!(lambda > 0.0)) {
+    if (!(lambda >= CONE_SMALLEST)) {
         axis = vec3(0.0, 0.0, 1.0);
         tan_major = CONE_LARGEST;
         tan_minor = CONE_LARGEST;
@@ -123,8 +128,8 @@ float cone_form_factor(float tan_major, float tan_minor)
     return tan_major * inversesqrt(1.0 + tan_major * tan_major) * (tan_minor * inversesqrt(1.0 + tan_minor * tan_minor));
 }
 
-// The cone's major direction W1, a unit vector across `axis`; W2 = cross(axis, W1). Of the points of the ellipse,
-// S in any frame t1, t2 across the axis is formed with c less its part along the axis: e = (cx hx^2/(hx^2 + lambda),
+// The cone's major direction W1, a unit vector across `axis`; W2 = cross(axis, W1). It is the eigenvector of S across the axis,
+// where c may be replaced by its difference from a multiple of the axis, e = (cx hx^2/(hx^2 + lambda),
 // cy hy^2/(hy^2 + lambda), 0), so that far lights cancel nothing. Circular cones: any direction.
 vec3 cone_major_direction(float hx, float hy, vec3 c, float lambda, vec3 axis)
 {

@@ -136,10 +136,11 @@ fn unit_vector(output: &Output, sign_free: bool, value: DVec3, truth: DVec3, sen
     let mut measure = Measure::graded(angle, angle, [UNIT_ROUNDOFF, 1.0 / 2048.0], output, sensitivity);
     // First order understates large turns: a perturbation that turns an axis by E to first order turns it by
     // asin(2 E)/2 at most, and anywhere once 2 E reaches 1 (the sin 2 theta theorem of Davis and Kahan, 1970).
-    let double = 2.0 * EXPLAINED_BY_ROUNDING * UNIT_ROUNDOFF * sensitivity;
-    let explained = double >= 1.0 || angle <= 0.5 * f64::asin(double);
-    if measure.verdict == Verdict::Inaccurate && explained {
-        measure.verdict = Verdict::IllConditioned;
+    if measure.verdict == Verdict::Inaccurate {
+        let double = 2.0 * EXPLAINED_BY_ROUNDING * UNIT_ROUNDOFF * sensitivity;
+        if double >= 1.0 || angle <= 0.5 * f64::asin(double) {
+            measure.verdict = Verdict::IllConditioned;
+        }
     }
     if (norm - 1.0).abs() > output.tolerance {
         measure.verdict = Verdict::NotUnit;

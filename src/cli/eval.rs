@@ -18,11 +18,7 @@ use crate::device::{Device, Outputs};
 use crate::family::Problem;
 use crate::record::configurations::Reader;
 
-/// Evaluates configurations from a CSV by the oracle and by variants.
-///
-/// The input's header names the family's columns in any order ('rootq list FAMILY' shows them); values are decimal or
-/// hexadecimal floats (0x1.8p-3), rounded once to f32. The output has one line an input line, in the same order, with
-/// the columns oracle.<column> (17 digits) and <variant>.<column> (9 digits), which read back to the same bits.
+/// Options of `rootq eval`.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     rootq eval ellipse_axes --inputs in.csv --output out.csv\n  \

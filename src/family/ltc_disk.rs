@@ -58,7 +58,13 @@ impl Problem for LtcDisk {
                         DVec3::new(draw.uniform(-4.0, 4.0), draw.uniform(-4.0, 4.0), draw.uniform(0.2, 4.0));
                     let radius = draw.log_uniform(0.1, 2.0);
                     let frame = draw.frame();
-                    store(row, ggx::minv(roughness, cos), center, radius * frame.x_axis, radius * frame.y_axis);
+                    store(
+                        row,
+                        ggx::minv(roughness, cos),
+                        center,
+                        radius * frame.x_axis,
+                        radius * frame.y_axis,
+                    );
                 },
             },
             Scenario {
@@ -71,7 +77,13 @@ impl Problem for LtcDisk {
                         DVec3::new(draw.uniform(-8.0, 8.0), draw.uniform(-2.0, 2.0), draw.uniform(0.0, 2.0));
                     let radius = draw.log_uniform(0.1, 2.0);
                     let frame = draw.frame();
-                    store(row, ggx::minv(roughness, cos), center, radius * frame.x_axis, radius * frame.y_axis);
+                    store(
+                        row,
+                        ggx::minv(roughness, cos),
+                        center,
+                        radius * frame.x_axis,
+                        radius * frame.y_axis,
+                    );
                 },
             },
             Scenario {
@@ -86,11 +98,9 @@ impl Problem for LtcDisk {
                     let minv = ggx::minv(draw.uniform(0.3, 1.0), draw.uniform(0.1, 1.0));
                     let radius = draw.log_uniform(0.01, 10.0);
                     let direction = draw.direction();
-                    let center = radius * draw.log_uniform(10.0, 1e5) * DVec3::new(
-                        direction.x,
-                        direction.y,
-                        direction.z.abs(),
-                    );
+                    let center = radius
+                        * draw.log_uniform(10.0, 1e5)
+                        * DVec3::new(direction.x, direction.y, direction.z.abs());
                     let frame = draw.frame();
                     store(row, minv, center, radius * frame.x_axis, radius * frame.y_axis);
                 },
@@ -115,8 +125,8 @@ impl Problem for LtcDisk {
                     let (cos, sin) = draw.angle();
                     let (a, b) = (frame.x_axis, frame.y_axis / draw.log_uniform(10.0, 1e4));
                     let direction = draw.direction();
-                    let center = draw.log_uniform(0.5, 20.0)
-                        * DVec3::new(direction.x, direction.y, direction.z.abs());
+                    let center =
+                        draw.log_uniform(0.5, 20.0) * DVec3::new(direction.x, direction.y, direction.z.abs());
                     image(draw, row, 0.5, center, cos * a + sin * b, cos * b - sin * a);
                 },
             },
@@ -129,8 +139,7 @@ impl Problem for LtcDisk {
                     let swing = libm::hypot(a.z, b.z);
                     let (cos, sin) = draw.angle();
                     let distance = draw.log_uniform(0.3, 30.0);
-                    let center =
-                        DVec3::new(distance * cos, distance * sin, draw.uniform(-1.0, 1.0) * swing);
+                    let center = DVec3::new(distance * cos, distance * sin, draw.uniform(-1.0, 1.0) * swing);
                     image(draw, row, 0.2, center, a, b);
                 },
             },
@@ -234,7 +243,13 @@ impl Problem for LtcDisk {
 }
 
 /// The sum over all inputs x of |x dE/dx|, from dE/dS with S = a a^T + b b^T - c c^T of the scaled images.
-fn sensitivity(gradient: DMat3, minv: &[DVec3; 3], light: &[DVec3; 3], image: &[DVec3; 3], scale: f64) -> f64 {
+fn sensitivity(
+    gradient: DMat3,
+    minv: &[DVec3; 3],
+    light: &[DVec3; 3],
+    image: &[DVec3; 3],
+    scale: f64,
+) -> f64 {
     let signs = [-2.0, 2.0, 2.0];
     let by_image = [0, 1, 2].map(|k| signs[k] * scale * (gradient * image[k]));
     let mut sum = 0.0;
@@ -256,7 +271,8 @@ fn images(input: &[f32]) -> [DVec3; 3] {
 }
 
 fn store(row: &mut [f32], minv: DMat3, center: DVec3, v1: DVec3, v2: DVec3) {
-    let values = [minv.to_cols_array().as_slice(), &center.to_array(), &v1.to_array(), &v2.to_array()].concat();
+    let values =
+        [minv.to_cols_array().as_slice(), &center.to_array(), &v1.to_array(), &v2.to_array()].concat();
     for (slot, value) in row.iter_mut().zip(values) {
         *slot = value as f32;
     }
@@ -303,21 +319,28 @@ fn edge(draw: &mut Draw, row: &mut [f32]) {
     let kind = draw.below(12);
     let identity = DMat3::IDENTITY;
     let direction = draw.direction();
-    let center = DVec3::from_array(
-        (draw.log_uniform(0.1, 10.0) * direction).to_array().map(|c| f64::from(c as f32)),
-    );
+    let center =
+        DVec3::from_array((draw.log_uniform(0.1, 10.0) * direction).to_array().map(|c| f64::from(c as f32)));
     let v1 = DVec3::from_array(draw.direction().to_array().map(|c| f64::from(c as f32)));
     let v2 = draw.direction();
     match kind {
         // No area: a zero axis, parallel axes, a light that is its centre.
         0 => store(row, identity, center, DVec3::ZERO, if draw.sign() > 0.0 { v2 } else { DVec3::ZERO }),
-        1 => store(row, identity, center, v1, draw.sign() * libm::exp2(f64::from(draw.below(21)) - 10.0) * v1),
+        1 => {
+            store(row, identity, center, v1, draw.sign() * libm::exp2(f64::from(draw.below(21)) - 10.0) * v1)
+        }
         // Edge-on, from outside and from the light itself.
         2 => store(row, identity, 4.0 * v1, v1, v2),
         3 => store(row, identity, if draw.sign() > 0.0 { 0.5 * v1 } else { DVec3::ZERO }, v1, v2),
         // The horizon exactly through the centre, touching the rim, and as the light's own plane.
         4 => store(row, identity, DVec3::new(center.x, center.y, 0.0), v1, v2),
-        5 => store(row, identity, DVec3::new(center.x, center.y, draw.sign()), DVec3::Z, DVec3::new(v2.x, v2.y, 0.0)),
+        5 => store(
+            row,
+            identity,
+            DVec3::new(center.x, center.y, draw.sign()),
+            DVec3::Z,
+            DVec3::new(v2.x, v2.y, 0.0),
+        ),
         6 => store(
             row,
             identity,
@@ -436,7 +459,8 @@ mod tests {
 
     #[test]
     fn a_disk_straight_above_is_its_sine_squared() {
-        let mut row = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0, 1.5, 0.0, 0.0, 0.0, 1.5, 0.0];
+        let mut row =
+            [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0, 1.5, 0.0, 0.0, 0.0, 1.5, 0.0];
         assert!((truth_of(&row).values()[0] - 0.36).abs() < 1e-15);
         // The other winding, and the light turned to its side, where half of it remains: integral over the half cap.
         row[16] = -1.5;

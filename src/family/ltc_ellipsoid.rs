@@ -146,9 +146,7 @@ impl Problem for LtcEllipsoid {
         let cc = exact3::square(&c.to_array().map(Twofold::from));
         let solid: [Twofold; 6] = {
             let squares = axes.map(|a| exact3::square(&a));
-            std::array::from_fn(|i| {
-                squares[0][i] * r2[0] + squares[1][i] * r2[1] + squares[2][i] * r2[2]
-            })
+            std::array::from_fn(|i| squares[0][i] * r2[0] + squares[1][i] * r2[1] + squares[2][i] * r2[2])
         };
         let own: [Twofold; 6] = std::array::from_fn(|i| solid[i] - cc[i]);
         let determinant = exact3::determinant(minv[0], minv[1], minv[2]) * by_matrix * by_matrix * by_matrix;
@@ -220,8 +218,7 @@ impl Rotation {
     /// vector t changes E by the torque times t, and a change dq turns by 2 dq conj(q)/|q|^2.
     fn sensitivity(&self, product: DMat3) -> f64 {
         let at = |row: usize, column: usize| product.col(column)[row];
-        let torque =
-            2.0 * DVec3::new(at(1, 2) - at(2, 1), at(2, 0) - at(0, 2), at(0, 1) - at(1, 0));
+        let torque = 2.0 * DVec3::new(at(1, 2) - at(2, 1), at(2, 0) - at(0, 2), at(0, 1) - at(1, 0));
         let (v, w) = (self.vector, self.scalar);
         let norm = v.length_squared() + w * w;
         let of_axis = |axis: DVec3, q: f64| (q * torque.dot(2.0 * (w * axis - axis.cross(v)))).abs();
@@ -321,7 +318,8 @@ mod tests {
     #[test]
     fn a_sphere_seen_through_its_map_is_the_ellipsoid() {
         let (s, u) = (2.0f32, 0.5f32);
-        let stretched = [s, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, u, 0.75, 1.0, 2.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+        let stretched =
+            [s, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, u, 0.75, 1.0, 2.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
         let plain =
             [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.5, 1.0, 1.0, 0.0, 0.0, 0.0, 3.0, 2.0, 1.0, 0.5];
         let (a, b) = (truth_of(&stretched).values()[0], truth_of(&plain).values()[0]);

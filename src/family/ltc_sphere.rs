@@ -171,8 +171,10 @@ impl Problem for LtcSphere {
 
         let determinant = exact3::determinant(minv[0], minv[1], minv[2]);
         let unit = |largest: f64| libm::ldexp(1.0, -libm::frexp(largest).1);
-        let (by_matrix, by_length) =
-            (unit(minv.iter().fold(0.0, |m, c| c.abs().max_element().max(m))), unit(center.abs().max_element()));
+        let (by_matrix, by_length) = (
+            unit(minv.iter().fold(0.0, |m, c| c.abs().max_element().max(m))),
+            unit(center.abs().max_element()),
+        );
         let (m, c, r) = (minv.map(|column| column * by_matrix), center * by_length, radius * by_length);
         let (r2, cc) = (Twofold::product(r, r), exact3::square(&c.to_array().map(Twofold::from)));
         let own: [Twofold; 6] = std::array::from_fn(|i| if i < 3 { r2 - cc[i] } else { -cc[i] });

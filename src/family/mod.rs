@@ -1,9 +1,12 @@
 //! The problems: one file each, and the slice that lists them.
 
+mod cone_axes;
+mod edge_integral;
 mod ellipse_axes;
 mod horizon_sphere;
 mod ltc_disk;
 mod ltc_ellipsoid;
+mod ltc_line;
 mod ltc_sphere;
 mod problem;
 
@@ -13,10 +16,13 @@ pub use problem::{
 
 /// Every family, sorted by name.
 pub static FAMILIES: &[&dyn Problem] = &[
+    &cone_axes::ConeAxes,
+    &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
     &horizon_sphere::HorizonSphere,
     &ltc_disk::LtcDisk,
     &ltc_ellipsoid::LtcEllipsoid,
+    &ltc_line::LtcLine,
     &ltc_sphere::LtcSphere,
 ];
 

@@ -208,8 +208,7 @@ impl Principal {
         let turn = if cos_d < 0.0 { turn + TAU } else { turn };
         let iz = a * b / libm::sqrt(big * small) * turn;
         // Half the sum and half the difference of the rim's points at the two crossings.
-        let area = sin_d
-            * libm::sqrt(l * (e3 * cos0 * cos0 + e1 * sin0 * sin0) + e1 * e3 * cos_d * cos_d);
+        let area = sin_d * libm::sqrt(l * (e3 * cos0 * cos0 + e1 * sin0 * sin0) + e1 * e3 * cos_d * cos_d);
         let dot = cos_d * cos_d * (e1 * cos0 * cos0 + e3 * sin0 * sin0) + l
             - sin_d * sin_d * (e1 * sin0 * sin0 + e3 * cos0 * cos0);
         let dphi = libm::atan2(2.0 * area, dot);
@@ -267,8 +266,7 @@ impl Principal {
             let (sin, cos) = (start + 0.5 * turn * (1.0 + node)).sin_cos();
             let (x, y) = (cos / root_a, sin / root_b);
             let inverse = libm::sqrt(x * x + y * y);
-            let height =
-                (axes.x_axis.z * a * x + axes.y_axis.z * b * y) / inverse + axes.z_axis.z * c;
+            let height = (axes.x_axis.z * a * x + axes.y_axis.z * b * y) / inverse + axes.z_axis.z * c;
             let (m1, m2, m3) = (x / a, y / b, -inverse / c);
             let products = [m1 * m1, m2 * m2, m3 * m3, m1 * m2, m1 * m3, m2 * m3];
             for (moment, product) in moments.iter_mut().zip(products) {

@@ -52,6 +52,12 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - of_b)) + (b - of_b))
 }
 
+/// a b as an exact pair: the rounded product and its rounding error, unless that falls below 2^-1074.
+pub fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let product = a * b;
+    (product, a.mul_add(b, -product))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -51,12 +51,10 @@ pub fn congruence(m: &[DVec3; 3], s: &[Twofold; 6]) -> [Twofold; 6] {
     let [xx, yy, zz, xy, xz, yz] = *s;
     let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
     // Row i of M S.
-    let product = [0, 1, 2].map(|i| {
-        [0, 1, 2].map(|k| rows[0][k] * m[0][i] + rows[1][k] * m[1][i] + rows[2][k] * m[2][i])
-    });
-    [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| {
-        product[i][0] * m[0][j] + product[i][1] * m[1][j] + product[i][2] * m[2][j]
-    })
+    let product = [0, 1, 2]
+        .map(|i| [0, 1, 2].map(|k| rows[0][k] * m[0][i] + rows[1][k] * m[1][i] + rows[2][k] * m[2][i]));
+    [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]
+        .map(|(i, j)| product[i][0] * m[0][j] + product[i][1] * m[1][j] + product[i][2] * m[2][j])
 }
 
 /// A symmetric matrix in f64, from the order of [`square`].

@@ -1,0 +1,112 @@
+/*---
+summary = "Moments of the line in the angle between its ends: every term positive, normal from the nearer end and p2 - p1"
+source  = "ours"
+tried   = "Fpo/Fwt differences with compensated areas keep the foot d in three places, each of which loses digits for near and long lines"
+
+[[variant]]
+name = "positive"
+
+[[variant]]
+name = "positive_precise"
+precise = true
+
+[[variant]]
+name = "positive_split"
+summary = "positive, with p1 x p2 from exact partial products: lines seen nearly end-on as well"
+defines = { SPLIT_NORMAL = 1 }
+
+[[variant]]
+name = "positive_split_precise"
+summary = "positive, with p1 x p2 from exact partial products: lines seen nearly end-on as well"
+defines = { SPLIT_NORMAL = 1 }
+precise = true
+
+[[variant]]
+name = "positive_split_scaled_precise"
+summary = "positive_split, the ends first scaled exactly by a power of two: any size of the scene"
+defines = { SPLIT_NORMAL = 1, SCALED = 1 }
+precise = true
+---*/
+
+// With theta the angle between the visible ends a, b of the line after Minv, ra and rb their distances,
+//
+//     I = |det Minv| |n| share / (pi ra rb) [ (a.z/ra)(f1/rb + f2/ra) + (b.z/rb)(f1/ra + f2/rb) ],   n = p1 x p2
+//     f1 = (sin theta - theta cos theta)/sin^3 theta        f2 = (theta - sin theta cos theta)/sin^3 theta
+//
+// share is the visible part of the segment. No term is negative, so nothing cancels but inside n and the ends
+// themselves. n is the nearer end's cross product with p2 - p1, whose terms stay small for a far light (the difference of close f32
+// is exact), and
+// the area after Minv is cof(Minv) n, not a second cross product; a clipped end is read off that area too.
+// SPLIT_NORMAL takes n from exact partial products instead; a compiler that factors a_high b_high + a_high b_low
+// undoes them, so these belong to `precise`.
+//
+// Domain: any finite ends within 2^-30..2^30 (SCALED: any), any Minv of moderate condition. Equal ends and lines seen
+// end-on answer 0.
+// Source: ours.
+// Bound: about 20 roundings times the condition of Minv, plus 2^-24/sin of the angle between the nearer end and p2 - p1; with
+// SPLIT_NORMAL plus 2^-34 |p1| |p2|/|p1 x p2| instead.
+// Measured: 1M a scenario, lavapipe (Mesa 22.3), inaccurate or not finite: positive none but 1 in 1M lines that pass
+// within 1e-6 of their half-length, and 4 % of the edge cases; positive_split none but 4 %, scaled 0.9 %. Median
+// relative error of a half-length 0.25 at distance 10 / 100 / 1000: 1e-7 in all three; positive_split without `precise`
+// 2e-7 / 1e-6 / 1e-5.
+
+#include "common/line_cosine.glsl"
+#ifdef SPLIT_NORMAL
+#include "common/error_free.glsl"
+#endif
+#ifdef SCALED
+#include "common/power_of_two.glsl"
+#endif
+
+float ltc_line(mat3 minv, vec3 p1, vec3 p2)
+{
+#ifdef SCALED
+    float scale = scale_to_one(max(largest_component(p1), largest_component(p2)));
+    p1 *= scale;
+    p2 *= scale;
+#endif
+    vec3 a = minv * p1;
+    vec3 b = minv * p2;
+    if (max(a.z, b.z) <= 0.0) {
+        return 0.0;
+    }
+
+#ifdef SPLIT_NORMAL
+    vec3 normal = cross_split(p1, p2);
+#else
+    vec3 nearer = dot(p1, p1) < dot(p2, p2) ? p1 : p2;
+    vec3 normal = cross(nearer, p2 - p1);
+#endif
+    vec3 cofactor0 = cross(minv[1], minv[2]);
+    vec3 cofactor1 = cross(minv[2], minv[0]);
+    vec3 cofactor2 = cross(minv[0], minv[1]);
+    vec3 area = cofactor0 * normal.x + cofactor1 * normal.y + cofactor2 * normal.z;
+    float weight = abs(dot(minv[0], cofactor0)) * length(normal);
+    if (!(weight > 0.0)) {
+        return 0.0;
+    }
+
+    float share = 1.0;
+    if (a.z < 0.0) {
+        share = b.z / (b.z - a.z);
+        a = vec3(-area.y, area.x, 0.0) / (b.z - a.z);
+    } else if (b.z < 0.0) {
+        share = a.z / (a.z - b.z);
+        b = vec3(area.y, -area.x, 0.0) / (a.z - b.z);
+    }
+
+    float ra = length(a);
+    float rb = length(b);
+    float inverse_a = 1.0 / ra;
+    float inverse_b = 1.0 / rb;
+    float sine = min(length(area) * share * inverse_a * inverse_b, 1.0);
+    float cosine = dot(a * inverse_a, b * inverse_b);
+    vec2 f = line_factors(sine, cosine);
+    float sum = a.z * inverse_a * (f.x * inverse_b + f.y * inverse_a)
+              + b.z * inverse_b * (f.x * inverse_a + f.y * inverse_b);
+    float result = 0.318309886183790672 * share * (weight * inverse_a * inverse_b) * sum;
+#ifdef SCALED
+    result *= scale;
+#endif
+    return result;
+}
