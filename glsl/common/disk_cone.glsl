@@ -16,7 +16,7 @@
 
 // Steps at most. The start is exact for circles and far lights, each step squares the error.
 #ifndef DISK_STEPS
-#define DISK_STEPS 4
+#define DISK_STEPS 6
 #endif
 
 struct DiskCone {

@@ -6,6 +6,7 @@
 #ifndef ROOTQ_ELLIPSOID_DISK
 #define ROOTQ_ELLIPSOID_DISK
 
+#include "common/power_of_two.glsl"
 #include "common/sphere_disk.glsl"
 
 // The rotation of q/|q|, q = (x, y, z, w); the identity for q = 0. Scaled, so that |q|^2 stays in range.
@@ -29,6 +30,34 @@ mat3 ellipsoid_rotation(vec4 q)
         1.0 - (yy + zz), xy + w.z, xz - w.y,
         xy - w.z, 1.0 - (xx + zz), yz + w.x,
         xz + w.y, yz - w.x, 1.0 - (xx + yy));
+}
+
+// The same ellipse by M = R D, without dividing by a semi-axis: with b = R^T c, the disk's normal is along
+// g = (b.x r.y r.z, b.y r.z r.x, b.z r.x r.y), |P_b| = |g|/v for v = r.x r.y r.z, and the ellipse's centre is (1 - (v/|g|)^2) c. One
+// semi-axis may be 0. 1: an ellipse; 0: nothing to see; -1: the point is inside. Ours.
+int ellipsoid_disk(inout vec3 center, mat3 R, vec3 r, out vec3 v1, out vec3 v2)
+{
+    vec3 b = center * R;
+    vec3 g = b * r.yzx * r.zxy;
+    float v = r.x * r.y * r.z;
+    float scale = scale_to_one(max(largest_component(g), v));
+    g *= scale;
+    v *= scale;
+    float size = length(g);
+    v1 = vec3(0.0);
+    v2 = vec3(0.0);
+    if (!(size > v)) {
+        return v > 0.0 ? -1 : 0;
+    }
+    vec3 b1;
+    vec3 b2;
+    sphere_basis(g / size, b1, b2);
+    float share = (size - v) / size * ((size + v) / size);
+    float root = sqrt(share);
+    center *= share;
+    v1 = R * (root * r * b1);
+    v2 = R * (root * r * b2);
+    return 1;
 }
 
 #endif

@@ -14,12 +14,11 @@ summary = "The ellipsoid's ellipse by M = R D, direct cone, no clipping but a ra
 defines = { HORIZON = 2 }
 ---*/
 
-// M = R D O serves with any orthogonal O, the paper's with O = R^T.
+// M = R D O serves with any orthogonal O, the paper's with O = R^T. P_b is never formed (glsl/common/ellipsoid_disk.glsl).
 //
-// Domain: semi-axes of one sign or another, none 0, of ratios up to about 1e4; from inside the answer is 1.
+// Domain: any semi-axes of ratios up to about 1e6, one of them 0 included; from inside the answer is 1.
 // Source: as above.
-// Bound: 1 - 1/|P_b|^2 is formed as a product; a flat ellipsoid seen along its plane has large P_b, and loses the
-// direction's digits in proportion.
+// Bound: the disk's, and 2^-22 over the height off the surface in radii.
 // Measured: -
 
 #include "common/disk_direct.glsl"
@@ -28,16 +27,12 @@ defines = { HORIZON = 2 }
 float ltc_ellipsoid(mat3 minv, vec3 center, vec4 rotation, vec3 radius)
 {
     float scale = scale_to_one(max(largest_component(center), largest_component(radius)));
-    radius = abs(radius) * scale;
-    if (!(min(radius.x, min(radius.y, radius.z)) > 1.0e-18)) {
-        return 0.0;
-    }
-    mat3 R = ellipsoid_rotation(rotation);
-    vec3 C = (center * scale) * R / radius;
+    vec3 C = center * scale;
     vec3 v1;
     vec3 v2;
-    if (!sphere_disk(C, 1.0, v1, v2)) {
-        return 1.0;
+    int seen = ellipsoid_disk(C, ellipsoid_rotation(rotation), abs(radius) * scale, v1, v2);
+    if (seen < 1) {
+        return seen < 0 ? 1.0 : 0.0;
     }
-    return disk_direct(minv, R * (radius * C), R * (radius * v1), R * (radius * v2));
+    return disk_direct(minv, C, v1, v2);
 }
