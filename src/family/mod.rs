@@ -4,8 +4,11 @@ mod cone_axes;
 mod edge_integral;
 mod ellipse_axes;
 mod horizon_sphere;
+mod ltc_disk;
+mod ltc_ellipsoid;
 mod ltc_line;
 mod ltc_polygon;
+mod ltc_sphere;
 mod problem;
 mod sym3_eigen;
 
@@ -19,8 +22,11 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
     &horizon_sphere::HorizonSphere,
+    &ltc_disk::LtcDisk,
+    &ltc_ellipsoid::LtcEllipsoid,
     &ltc_line::LtcLine,
     &ltc_polygon::LtcPolygon,
+    &ltc_sphere::LtcSphere,
     &sym3_eigen::Sym3Eigen,
 ];
 

@@ -1,11 +1,13 @@
-//! Pure mathematics: spacing of floating-point formats, exact sums and products, twofold numbers, quadrature, cubics,
-//! eigenvalues, and the integrals that several families share.
+//! Pure mathematics: spacing of floating-point formats, exact sums and products, quadrature, cubics, and the
+//! integrals that several families share.
 
 pub mod binary16;
+pub mod clipped_ellipse;
 pub mod clipped_sphere;
 pub mod cubic;
 pub mod double_double;
 pub mod exact;
+pub mod exact3;
 pub mod gauss_legendre;
 pub mod line_integral;
 pub mod polygon_irradiance;

@@ -1,0 +1,55 @@
+/*---
+summary = "sqrt(Q) ordered with the 1e-4 shortcut, Blinn's cubic, equal-area sphere at the horizon: the published pipeline"
+source  = "Heitz & Hill, Real-Time Line- and Disk-Light Shading with Linearly Transformed Cosines, SIGGRAPH 2017 course; cubic by Blinn and Peters"
+[[variant]]
+name = "talk2017"
+tables = { sphere_lut = "image" }
+[[variant]]
+name = "talk2017_sphere_analytic"
+summary = "The published pipeline with the closed form of the clipped sphere"
+defines = { HORIZON = 1 }
+[[variant]]
+name = "talk2017_rational"
+summary = "The published pipeline with a rational fit at the horizon"
+defines = { HORIZON = 2 }
+[[variant]]
+name = "talk2017_discriminant"
+summary = "The published pipeline with the cubic's discriminant clamped to >= 0"
+tables = { sphere_lut = "image" }
+defines = { CLAMP_DISCRIMINANT = 1 }
+[[variant]]
+name = "talk2017_form_factor"
+summary = "The published pipeline with the form factor clamped to >= 0 (a web engine)"
+tables = { sphere_lut = "image" }
+defines = { CLAMP_FORM_FACTOR = 1 }
+[[variant]]
+name = "talk2017_scaled"
+summary = "Shortcut at 7e-4, cubic for e/b, discriminant and form factor >= 0, third axis normalised (a content suite)"
+tables = { sphere_lut = "image" }
+defines = { SHORTCUT = "7e-4", OVER_B = 1, CLAMP_DISCRIMINANT = 1, CLAMP_FORM_FACTOR = 1, NORMALIZE_THIRD = 1 }
+[[variant]]
+name = "talk2017_radicands"
+summary = "Shortcut at 1e-3, det Q, discriminant and tangents' radicands >= 0 (a hobby engine)"
+tables = { sphere_lut = "image" }
+defines = { SHORTCUT = "1e-3", CLAMP_DET = 1, CLAMP_DISCRIMINANT = 1, CLAMP_TANGENTS = 1 }
+[[variant]]
+name = "talk2017_floors"
+summary = "Absolute floors of 1e-7, everything clamped, the result sanitised (a C++ engine's HLSL)"
+tables = { sphere_lut = "image" }
+defines = { FLOOR = "1e-7", CLAMP_DET = 1, CLAMP_DISCRIMINANT = 1, CLAMP_RADICANDS = 1, CLAMP_TANGENTS = 1, CLAMP_FORM_FACTOR = 1, SANITIZE = 1 }
+---*/
+
+// Two eigensystems and a table, on the light's centre and semi-axes after Minv: glsl/common/disk_talk2017.glsl, with each
+// fix named there.
+//
+// Domain: generic lights. A disk that faces the point has a double root, and the discriminant's sign is rounding; a far
+// light overflows the discriminant as (4/81)(d/r)^12. No guard but those that a variant names.
+// Bound: none.
+// Measured: -
+
+#include "common/disk_talk2017.glsl"
+
+float ltc_disk(mat3 minv, vec3 center, vec3 v1, vec3 v2)
+{
+    return disk_talk2017(minv * center, minv * v1, minv * v2);
+}

@@ -1,0 +1,324 @@
+//! Irradiance of a sphere light under a linearly transformed cosine, the horizon included.
+//!
+//! A sphere of centre c and radius r covers the directions of the cone with the dual quadric r^2 I - c c^T, rational in
+//! the inputs, and Minv takes it to Minv (r^2 I - c c^T) Minv^T: `numeric::clipped_ellipse` does the rest. Its determinant
+//! is -r^4 (|c|^2 - r^2) det(Minv)^2 with both factors rounded once.
+//!
+//! From inside or on the sphere every direction is lit: the answer is 1. A sphere without radius, a singular Minv and a
+//! light below the horizon give exactly 0.
+
+use glam::{DMat3, DVec3};
+
+use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
+use crate::catalog::{Field, Type};
+use crate::numeric::clipped_ellipse::Cone;
+use crate::numeric::spacing::UNIT_ROUNDOFF;
+use crate::numeric::twofold::Twofold;
+use crate::numeric::{exact, exact3};
+use crate::sample::{Draw, ggx, landmarks};
+
+pub(super) struct LtcSphere;
+
+const MINV: usize = 0;
+const CENTER: usize = 9;
+const RADIUS: usize = 12;
+
+impl Problem for LtcSphere {
+    fn name(&self) -> &'static str {
+        "ltc_sphere"
+    }
+
+    fn summary(&self) -> &'static str {
+        "Irradiance of a sphere light under a linearly transformed cosine, clipped by the horizon"
+    }
+
+    fn inputs(&self) -> &'static [Field] {
+        const {
+            &[
+                Field::new("minv", Type::Mat3),
+                Field::new("center", Type::Vec3),
+                Field::new("radius", Type::Float),
+            ]
+        }
+    }
+
+    /// 1e-4 of the hemisphere is a tenth of a step of 10 bits.
+    fn outputs(&self) -> &'static [Output] {
+        const { &[Output::new("irradiance", Type::Float, Quantity::Irradiance, 1e-4).headline()] }
+    }
+
+    fn scenarios(&self) -> &'static [Scenario] {
+        &[
+            Scenario {
+                name: "ggx",
+                summary: "spheres of 5 cm to 1 m up to 5 m away over a floor of GGX roughness 0.1 to 1, seen from 0 to 85 degrees",
+                draw: |draw, row| {
+                    let minv = ggx::minv(draw.uniform(0.1, 1.0), draw.uniform(0.087, 1.0));
+                    let direction = draw.direction();
+                    let radius = draw.log_uniform(0.05, 1.0);
+                    let center = (radius + draw.log_uniform(0.05, 5.0))
+                        * DVec3::new(direction.x, direction.y, direction.z.abs());
+                    store(row, minv, center, radius);
+                },
+            },
+            Scenario {
+                name: "diffuse",
+                summary: "the same spheres under the plain cosine: their disks face the point up to rounding",
+                draw: |draw, row| {
+                    let direction = draw.direction();
+                    let radius = draw.log_uniform(0.05, 1.0);
+                    let center = (radius + draw.log_uniform(0.05, 5.0))
+                        * DVec3::new(direction.x, direction.y, direction.z.abs());
+                    store(row, DMat3::IDENTITY, center, radius);
+                },
+            },
+            Scenario {
+                name: "grazing",
+                summary: "spheres over a floor of roughness 0.05 to 0.5 seen at cosines 1e-3 to 0.1",
+                draw: |draw, row| {
+                    let minv = ggx::minv(draw.uniform(0.05, 0.5), draw.log_uniform(1e-3, 0.1));
+                    let radius = draw.log_uniform(0.05, 1.0);
+                    let height = radius + draw.uniform(0.0, 2.0);
+                    let center = DVec3::new(draw.uniform(-8.0, 8.0), draw.uniform(-2.0, 2.0), height);
+                    store(row, minv, center, radius);
+                },
+            },
+            Scenario {
+                name: "far",
+                summary: "spheres 10 to 1e5 radii away, roughness 0.3 to 1",
+                draw: |draw, row| {
+                    let minv = ggx::minv(draw.uniform(0.3, 1.0), draw.uniform(0.1, 1.0));
+                    let radius = draw.log_uniform(0.01, 10.0);
+                    let direction = draw.direction();
+                    let center = radius
+                        * draw.log_uniform(10.0, 1e5)
+                        * DVec3::new(direction.x, direction.y, direction.z.abs());
+                    store(row, minv, center, radius);
+                },
+            },
+            Scenario {
+                name: "near_surface",
+                summary: "the point 1e-5 to 0.1 radii off the sphere, roughness 0.3 to 1",
+                draw: |draw, row| {
+                    let minv = ggx::minv(draw.uniform(0.3, 1.0), draw.uniform(0.1, 1.0));
+                    let radius = draw.log_uniform(0.1, 10.0);
+                    let center = radius * (1.0 + draw.log_uniform(1e-5, 0.1)) * draw.direction();
+                    store(row, minv, center, radius);
+                },
+            },
+            Scenario {
+                name: "horizon",
+                summary: "spheres that the floor cuts, plain cosine or roughness 0.2 to 1",
+                draw: |draw, row| {
+                    let minv = if draw.sign() < 0.0 {
+                        DMat3::IDENTITY
+                    } else {
+                        ggx::minv(draw.uniform(0.2, 1.0), draw.uniform(0.1, 1.0))
+                    };
+                    let (cos, sin) = draw.angle();
+                    let distance = draw.log_uniform(1.01, 30.0);
+                    let height = draw.uniform(-1.0, 1.0);
+                    let along = libm::sqrt(distance * distance - height * height);
+                    store(row, minv, DVec3::new(along * cos, along * sin, height), 1.0);
+                },
+            },
+            Scenario {
+                name: "edge",
+                summary: "from inside and on the surface, no radius, singular matrices, touching the horizon, any scale",
+                draw: edge,
+            },
+        ]
+    }
+
+    fn landmarks(&self) -> &'static [Landmark] {
+        &[
+            Landmark {
+                name: "distance",
+                summary: "distance of the centre over the radius, before Minv",
+                edges: &[1.0, 1.000_01, 1.001, 1.1, 2.0, 10.0, 1e2, 1e3, 1e4],
+                coordinate: |input, _| {
+                    exact3::vector(&input[CENTER..]).length() / f64::from(input[RADIUS]).abs()
+                },
+            },
+            Landmark {
+                name: "elevation",
+                summary: "height of the centre over the reach of the sphere's image, after Minv; cut in -1..1",
+                edges: &[-1.0, -0.99, -0.5, 0.0, 0.5, 0.99, 1.0, 1.01, 2.0, 10.0],
+                coordinate: |input, _| {
+                    let minv = exact3::columns(&input[MINV..]);
+                    let row = DVec3::from_array(minv.map(|column| column.z));
+                    let center = exact3::vector(&input[CENTER..]);
+                    row.dot(center) / (row.length() * f64::from(input[RADIUS]).abs())
+                },
+            },
+        ]
+    }
+
+    fn oracle(&self, input: &[f32], truth: &mut Truth) {
+        let minv = exact3::columns(&input[MINV..]);
+        let center = exact3::vector(&input[CENTER..]);
+        let radius = f64::from(input[RADIUS]);
+        let squares = center * center;
+        // d^2 - r^2, rounded once.
+        let outside = exact::sum(&[squares.x, squares.y, squares.z, -radius * radius]);
+        if radius == 0.0 {
+            return truth.scalar(0, 0.0, 0.0, 0.0);
+        }
+        if outside <= 0.0 {
+            let near = -outside < 8.0 * UNIT_ROUNDOFF * radius * radius;
+            return truth.scalar(0, 1.0, 0.0, if near { f64::INFINITY } else { 0.0 });
+        }
+
+        let determinant = exact3::determinant(minv[0], minv[1], minv[2]);
+        let unit = |largest: f64| libm::ldexp(1.0, -libm::frexp(largest).1);
+        let (by_matrix, by_length) = (
+            unit(minv.iter().fold(0.0, |m, c| c.abs().max_element().max(m))),
+            unit(center.abs().max_element()),
+        );
+        let (m, c, r) = (minv.map(|column| column * by_matrix), center * by_length, radius * by_length);
+        let (r2, cc) = (Twofold::product(r, r), exact3::square(&c.to_array().map(Twofold::from)));
+        let own: [Twofold; 6] = std::array::from_fn(|i| if i < 3 { r2 - cc[i] } else { -cc[i] });
+        let determinant = determinant * by_matrix * by_matrix * by_matrix;
+        let minus_det = determinant * determinant * (r * r * r * r) * (outside * by_length * by_length);
+        let matrix = DMat3::from_cols(m[0], m[1], m[2]);
+        let cone = Cone { dual: exact3::congruence(&m, &own), minus_det, towards: matrix * c };
+        let light = cone.irradiance();
+        if light.escalated {
+            truth.escalate();
+        }
+        let below = cone.dual[2].value() < 0.0 && cone.towards.z < 0.0;
+        let sensitivity = if determinant == 0.0 && !below {
+            f64::INFINITY
+        } else {
+            let by_own = matrix.transpose() * light.gradient * matrix;
+            let by_minv = 2.0 * light.gradient * matrix * exact3::symmetric(&own);
+            let of_minv: f64 = (0..3).map(|k| (by_minv.col(k) * m[k]).abs().element_sum()).sum();
+            let of_center = (2.0 * (by_own * c) * c).abs().element_sum();
+            let of_radius = (2.0 * r * r * (by_own.x_axis.x + by_own.y_axis.y + by_own.z_axis.z)).abs();
+            of_minv + of_center + of_radius
+        };
+        truth.scalar(0, light.value, light.certificate(), sensitivity);
+    }
+}
+
+fn store(row: &mut [f32], minv: DMat3, center: DVec3, radius: f64) {
+    let values = [minv.to_cols_array().as_slice(), &center.to_array(), &[radius]].concat();
+    for (slot, value) in row.iter_mut().zip(values) {
+        *slot = value as f32;
+    }
+}
+
+fn edge(draw: &mut Draw, row: &mut [f32]) {
+    let identity = DMat3::IDENTITY;
+    let kind = draw.below(9);
+    let direction = draw.direction();
+    let (a, b) = (draw.direction(), draw.direction());
+    match kind {
+        // Inside, exactly on the surface (a Pythagorean centre), no radius, no sphere at all.
+        0 => store(row, identity, draw.unit() * direction, 1.0),
+        1 => store(row, identity, draw.sign() * DVec3::new(2.0, 3.0, 6.0), 7.0),
+        2 => store(row, identity, direction, 0.0),
+        3 => store(row, identity, DVec3::ZERO, if draw.sign() > 0.0 { 1.0 } else { 0.0 }),
+        // Touching the horizon from above and from below.
+        4 => store(row, identity, DVec3::new(4.0 * direction.x, 4.0 * direction.y, draw.sign()), 1.0),
+        5 => store(row, DMat3::from_cols(a, a, b), 2.0 * direction, 1.0),
+        6 => {
+            let scale = libm::exp2(f64::from(draw.below(81)) - 40.0);
+            store(row, identity, 2.0 * scale * direction, scale);
+        }
+        7 => {
+            let minv = DMat3::from_cols(
+                draw.log_uniform(1e-4, 1e4) * a,
+                draw.log_uniform(1e-4, 1e4) * b,
+                draw.log_uniform(1e-4, 1e4) * DVec3::Z,
+            );
+            store(row, minv, draw.log_uniform(1.0, 1e3) * direction, 1.0);
+        }
+        _ => {
+            row.fill(0.0);
+            for at in [MINV, MINV + 4, MINV + 8, CENTER, CENTER + 1, CENTER + 2, RADIUS] {
+                row[at] = landmarks::near_landmark(draw);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::family::problem::CERTIFIED;
+    use crate::sample::Stream;
+
+    fn truth_of(input: &[f32]) -> Truth {
+        let mut truth = Truth::new(LtcSphere.outputs());
+        LtcSphere.oracle(input, &mut truth);
+        truth
+    }
+
+    #[test]
+    fn every_truth_is_certified_and_a_share() {
+        for scenario in LtcSphere.scenarios() {
+            let mut lit = 0;
+            Stream::new(11, scenario.name).visit(0, 20_000, |_, draw| {
+                let mut row = [0.0; 13];
+                (scenario.draw)(draw, &mut row);
+                let truth = truth_of(&row);
+                assert!(row.iter().all(|v| v.is_finite()), "{row:?}");
+                assert!(truth.worst_bound() <= CERTIFIED, "{row:?}: {truth:?}");
+                assert!((0.0..=1.0).contains(&truth.values()[0]), "{row:?}: {truth:?}");
+                assert!(truth.sensitivities()[0] >= 0.0, "{row:?}: {truth:?}");
+                lit += u32::from(truth.values()[0] > 0.0);
+            });
+            assert!(lit > 5_000, "{}: {lit}", scenario.name);
+        }
+    }
+
+    /// Under the plain cosine the clipped sphere has a closed form of its own.
+    #[test]
+    fn agrees_with_the_clipped_sphere() {
+        let scenario = LtcSphere.scenario("diffuse").unwrap();
+        let mut cut = 0;
+        Stream::new(3, scenario.name).visit(0, 5_000, |_, draw| {
+            let mut row = [0.0; 13];
+            (scenario.draw)(draw, &mut row);
+            let center = exact3::vector(&row[CENTER..]);
+            let radius = f64::from(row[RADIUS]);
+            let (z, s) = (center.z / center.length(), radius * radius / center.length_squared());
+            let expected = if z * z >= s {
+                z.max(0.0) * s
+            } else {
+                cut += 1;
+                let (g, c) = (libm::sqrt(s - z * z), libm::sqrt(1.0 - s));
+                (z * s * libm::atan2(g, -z * c) - c * g + libm::atan2(g, c)) / core::f64::consts::PI
+            };
+            let value = truth_of(&row).values()[0];
+            assert!((value - expected).abs() < 1e-14, "{row:?}: {value} for {expected}");
+        });
+        assert!(cut > 500, "{cut}");
+    }
+
+    #[test]
+    fn sensitivities_cover_real_changes() {
+        for name in ["ggx", "far", "horizon", "near_surface"] {
+            let mut worst: f64 = 0.0;
+            let scenario = LtcSphere.scenario(name).unwrap();
+            Stream::new(5, "sensitivity").visit(0, 3_000, |_, draw| {
+                let mut row = [0.0; 13];
+                (scenario.draw)(draw, &mut row);
+                let before = truth_of(&row);
+                let step = 2f64.powi(-18);
+                let changed: Vec<f32> =
+                    row.iter().map(|v| (f64::from(*v) * (1.0 + draw.sign() * step)) as f32).collect();
+                let change = (truth_of(&changed).values()[0] - before.values()[0]).abs() / step;
+                let sensitivity = before.sensitivities()[0];
+                let off = exact3::vector(&row[CENTER..]).length() / f64::from(row[RADIUS]) - 1.0;
+                // First order only: not where the answer or the height over the surface changes by a twentieth.
+                if sensitivity * step < 0.05 * before.values()[0] && off > 80.0 * step {
+                    worst = worst.max(change / sensitivity);
+                }
+            });
+            // 1.15: second order at this step, and the rim's quadrature. 0.3: all signs at their worst are rare.
+            assert!((0.3..=1.15).contains(&worst), "{name}: {worst}");
+        }
+    }
+}

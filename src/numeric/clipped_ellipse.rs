@@ -1,0 +1,312 @@
+//! Irradiance from the part of an elliptic cone above the horizon, exactly.
+//!
+//! The cone is given by its dual quadric S, a symmetric matrix with eigenvalues e1 >= e3 > 0 > -l: planes through the
+//! apex with normal n touch the cone where n^T S n = 0. An ellipse with centre C and conjugate semi-axes V1, V2 has
+//! S = V1 V1^T + V2 V2^T - C C^T, and a linear map M takes S to M S M^T. The eigenvector of -l is the mean direction
+//! W3, those of e1 and e3 are the principal axes W1, W2, and the rim is p(u) = (sqrt(e1) cos u, sqrt(e3) sin u, sqrt(l))
+//! in the frame (W1, W2, W3). With A = l + e1, B = l + e3, k = e1 - e3 and q = |p|^2, Stokes' theorem gives
+//!
+//! ```text
+//! E = (1/2pi) [ W1.z Ix + W2.z Iy + W3.z Iz + dphi ]        over the arc of u that is above the horizon
+//! Ix = integral of -sqrt(e3 l) cos u / q     Iy = integral of -sqrt(e1 l) sin u / q     Iz = integral of sqrt(e1 e3) / q
+//! ```
+//!
+//! with dphi the azimuth between the two horizon crossings u0 +- d, along which the contour is closed. The differences
+//! of the antiderivatives over that arc follow from the addition theorems without cancellation:
+//!
+//! ```text
+//! Ix = -sqrt(e3 l) D asinh(z)/z            D = 2 cos u0 sin d / sqrt(q1 q2)     z = D sqrt(k A)
+//! Iy = -sqrt(e1 l) G atan2(y, x)/y         G = 2 sin u0 sin d / B               y = G sqrt(k B)
+//!                                          x = 1 + (k/B)(cos^2 u0 - sin^2 d)
+//! Iz = sqrt(e1 e3/(A B)) atan2(sqrt(A B) sin 2d, A cos u1 cos u2 + B sin u1 sin u2)   in 0..2pi
+//! ```
+//!
+//! Source: ours (Stokes' theorem on the cosine's vector potential, as for polygons: Lambert 1760).
+
+use std::f64::consts::{PI, TAU};
+
+use glam::{DMat3, DVec3};
+
+use super::spacing::f32_spacing;
+use super::twofold::Twofold;
+
+/// Irradiances below this are bounded in absolute terms only: 1 % of the least error that a rendered image shows.
+pub const FLOOR: f64 = 1.0 / 1_048_576.0;
+
+/// f64's unit roundoff, 2^-53.
+const EPS: f64 = f64::EPSILON / 2.0;
+
+/// One nappe of an elliptic cone with its apex at the origin.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    /// The dual quadric: xx, yy, zz, xy, xz, yz. Entries of magnitude about 1 at most (scale is free).
+    pub dual: [Twofold; 6],
+    /// -det S > 0 within 4 roundings, however much a determinant of the entries would cancel.
+    pub minus_det: f64,
+    /// Any vector inside the nappe.
+    pub towards: DVec3,
+}
+
+/// What a cone gives, as a share of the full hemisphere's irradiance.
+#[derive(Clone, Copy, Debug)]
+pub struct Irradiance {
+    pub value: f64,
+    /// Absolute error bound of `value`.
+    pub bound: f64,
+    /// Whether the closed form cancelled too much, and quadrature of a positive integrand took its place.
+    pub escalated: bool,
+    /// G with dE = sum of G_ij dS_ij, to a few percent: a trapezoid or Gauss sum along the rim.
+    pub gradient: DMat3,
+}
+
+impl Irradiance {
+    const NOTHING: Irradiance =
+        Irradiance { value: 0.0, bound: 0.0, escalated: false, gradient: DMat3::ZERO };
+
+    /// The bound to compare with the f32 spacing of the value: below [`FLOOR`], scaled as if the value were there.
+    pub fn certificate(&self) -> f64 {
+        if self.bound == 0.0 {
+            return 0.0;
+        }
+        self.bound * f32_spacing(self.value) / f32_spacing(self.value.max(FLOOR))
+    }
+}
+
+/// The principal frame: eigenvalues, and the heights of the axes.
+struct Principal {
+    e1: f64,
+    e3: f64,
+    l: f64,
+    /// (l + e1)(l + e3).
+    gap: f64,
+    axes: DMat3,
+}
+
+impl Cone {
+    /// The irradiance on a plane with normal +z; nothing where the cone is flat (`minus_det` is 0) or below.
+    pub fn irradiance(&self) -> Irradiance {
+        let below = self.dual[2].value() <= 0.0 && self.towards.z <= 0.0;
+        // Smaller products are beyond f64's range, and the cone is flat to 1e-130.
+        if below || !(self.minus_det > 1e-290) {
+            return Irradiance::NOTHING;
+        }
+        let principal = self.principal();
+        if self.dual[2].value() <= 0.0 {
+            let factor = libm::sqrt(self.minus_det / principal.l / principal.gap);
+            let value = (factor * principal.axes.z_axis.z).min(1.0);
+            let gradient = principal.gradient(0.0, TAU);
+            return Irradiance { value, bound: 24.0 * EPS * value, escalated: false, gradient };
+        }
+        principal.clipped(self.dual[2].value())
+    }
+
+    fn principal(&self) -> Principal {
+        let [xx, yy, zz, xy, xz, yz] = self.dual;
+        let c2 = xx + yy + zz;
+        let c1 = (xx * yy - xy * xy) + (xx * zz - xz * xz) + (yy * zz - yz * yz);
+        let l = positive_root(c2, c1, self.minus_det);
+        let (x, y, z) = (xx + l, yy + l, zz + l);
+        // The adjugate of S + l: (l + e1)(l + e3) W3 W3^T.
+        let (axx, ayy, azz) = (y * z - yz * yz, x * z - xz * xz, x * y - xy * xy);
+        let (axy, axz, ayz) = (xz * yz - xy * z, xy * yz - xz * y, xy * xz - yz * x);
+        let gap = (axx + ayy + azz).value();
+        let (dx, dy, dz) = (axx.value(), ayy.value(), azz.value());
+        let column = if dx >= dy && dx >= dz {
+            DVec3::new(dx, axy.value(), axz.value())
+        } else if dy >= dz {
+            DVec3::new(axy.value(), dy, ayz.value())
+        } else {
+            DVec3::new(axz.value(), ayz.value(), dz)
+        };
+        let w3 = column.normalize();
+        let w3 = if w3.dot(self.towards) < 0.0 { -w3 } else { w3 };
+        let (b1, b2) = w3.any_orthonormal_pair();
+        let times = |b: DVec3| {
+            [xx * b.x + xy * b.y + xz * b.z, xy * b.x + yy * b.y + yz * b.z, xz * b.x + yz * b.y + zz * b.z]
+        };
+        let dot = |v: [Twofold; 3], b: DVec3| v[0] * b.x + v[1] * b.y + v[2] * b.z;
+        let (s1, s2) = (times(b1), times(b2));
+        let (s11, s22, s12) = (dot(s1, b1), dot(s2, b2), dot(s1, b2).value());
+        let tau = 0.5 * (s11 - s22).value();
+        let h = libm::hypot(tau, s12);
+        let e1 = 0.5 * (c2 + l).value() + h;
+        let l = l.value();
+        let (cos, sin) = if h == 0.0 {
+            (1.0, 0.0)
+        } else if tau >= 0.0 {
+            let cos = libm::sqrt(0.5 * (1.0 + tau / h));
+            (cos, 0.5 * s12 / (h * cos))
+        } else {
+            let sin = libm::sqrt(0.5 * (1.0 - tau / h));
+            (0.5 * s12 / (h * sin), sin)
+        };
+        let axes = DMat3::from_cols(cos * b1 + sin * b2, cos * b2 - sin * b1, w3);
+        Principal { e1, e3: (self.minus_det / l / e1).min(e1), l, gap, axes }
+    }
+}
+
+/// The one positive root of l^3 + c2 l^2 + c1 l - c0, whose three roots are real.
+///
+/// Newton descends to it from Laguerre's bound on the roots, where the cubic is convex; two steps in twofold arithmetic
+/// take out what the rounding of c1 and c2 left.
+fn positive_root(c2: Twofold, c1: Twofold, c0: f64) -> Twofold {
+    let (b, c) = (c2.value(), c1.value());
+    let spread = libm::sqrt((b * b - 3.0 * c).max(0.0));
+    let mut l = (2.0 * spread - b) / 3.0 + 1e-15 * (b.abs() + libm::sqrt(c.abs()));
+    // A root of ratio 2^-100 to the others takes about 100 halvings; most take 3 steps.
+    for _ in 0..300 {
+        let value = ((l + b) * l + c) * l - c0;
+        let slope = (3.0 * l + 2.0 * b) * l + c;
+        let step = value / slope;
+        if !(step > 4.0 * EPS * l) || !(slope > 0.0) {
+            break;
+        }
+        l = if step < l { l - step } else { 0.5 * l };
+    }
+    let mut root = Twofold::from(l);
+    for _ in 0..2 {
+        let value = ((root + c2) * root + c1) * root - Twofold::from(c0);
+        let slope = (root * 3.0 + c2 * 2.0) * root + c1;
+        let step = value.value() / slope.value();
+        if !(step.abs() < 0.5 * root.value()) {
+            break;
+        }
+        root = root - Twofold::from(step);
+    }
+    root
+}
+
+impl Principal {
+    /// The part of a cone that the horizon cuts; `szz` = S_zz > 0.
+    fn clipped(&self, szz: f64) -> Irradiance {
+        let &Principal { e1, e3, l, axes, .. } = self;
+        let heights = DVec3::new(axes.x_axis.z, axes.y_axis.z, axes.z_axis.z);
+        let (a, b, c) = (libm::sqrt(e1), libm::sqrt(e3), libm::sqrt(l));
+        let (up, across, middle) = (heights.x * a, heights.y * b, heights.z * c);
+        // Height along the rim: middle + swing cos(u - u0), zero at u0 +- d; swing^2 - middle^2 is S_zz.
+        let swing = libm::sqrt(middle * middle + szz);
+        let level = libm::hypot(up, across);
+        let (cos0, sin0) = (up / level, across / level);
+        let (cos_d, sin_d) = (-middle / swing, libm::sqrt(szz) / swing);
+        let (big, small, k) = (l + e1, l + e3, e1 - e3);
+
+        let (cos1, sin1) = (cos0 * cos_d + sin0 * sin_d, sin0 * cos_d - cos0 * sin_d);
+        let (cos2, sin2) = (cos0 * cos_d - sin0 * sin_d, sin0 * cos_d + cos0 * sin_d);
+        let q = |cos: f64, sin: f64| big * cos * cos + small * sin * sin;
+        let (q1, q2) = (q(cos1, sin1), q(cos2, sin2));
+        let d = 2.0 * cos0 * sin_d / libm::sqrt(q1 * q2);
+        let z = d * libm::sqrt(k * big);
+        let ix = -b * c * d * if z.abs() > 1e-9 { libm::asinh(z) / z } else { 1.0 };
+        let g = 2.0 * sin0 * sin_d / small;
+        let y = g * libm::sqrt(k * small);
+        let x = 1.0 + k / small * (cos0 * cos0 - sin_d * sin_d);
+        let iy = -a * c * g * if y.abs() > 1e-9 * x { libm::atan2(y, x) / y } else { 1.0 / x };
+        let turn = libm::atan2(
+            libm::sqrt(big * small) * 2.0 * sin_d * cos_d,
+            big * cos1 * cos2 + small * sin1 * sin2,
+        );
+        let turn = if cos_d < 0.0 { turn + TAU } else { turn };
+        let iz = a * b / libm::sqrt(big * small) * turn;
+        // Half the sum and half the difference of the rim's points at the two crossings.
+        let area = sin_d * libm::sqrt(l * (e3 * cos0 * cos0 + e1 * sin0 * sin0) + e1 * e3 * cos_d * cos_d);
+        let dot = cos_d * cos_d * (e1 * cos0 * cos0 + e3 * sin0 * sin0) + l
+            - sin_d * sin_d * (e1 * sin0 * sin0 + e3 * cos0 * cos0);
+        let dphi = libm::atan2(2.0 * area, dot);
+
+        let terms = [heights.x * ix, heights.y * iy, heights.z * iz, dphi];
+        let value = (terms.iter().sum::<f64>() / TAU).clamp(0.0, 1.0);
+        let bound = 8.0 * EPS / TAU * terms.iter().map(|term| term.abs()).sum::<f64>();
+        let start = libm::atan2(libm::sqrt(small) * sin1, libm::sqrt(big) * cos1);
+        let gradient = self.gradient(start, turn);
+        if bound <= f32_spacing(value) / 32.0 && value > 16.0 * bound {
+            return Irradiance { value, bound, escalated: false, gradient };
+        }
+
+        // The integrand of the area has its poles where q is 0: this far from the arc's middle, in half arcs.
+        let half_arc = 0.5 * libm::atan2(sin_d, cos_d);
+        if libm::asinh(libm::sqrt(small / k)) < 0.9 * half_arc {
+            return Irradiance { value, bound, escalated: true, gradient };
+        }
+        let value = self.area(swing, cos0, sin0, 2.0 * half_arc);
+        Irradiance { value, bound: 64.0 * EPS * value, escalated: true, gradient }
+    }
+
+    /// The same as an integral over the ellipse's visible segment: lines parallel to the horizon in closed form, across
+    /// them by Gauss's rule. The integrand is positive, so nothing cancels.
+    fn area(&self, swing: f64, cos0: f64, sin0: f64, d: f64) -> f64 {
+        let &Principal { e1, e3, l, .. } = self;
+        let along = e1 * sin0 * sin0 + e3 * cos0 * cos0;
+        let skew = sin0 * cos0 * (e3 - e1);
+        let line = |angle: f64| {
+            let (sin, cos) = libm::sincos(angle);
+            let height = 2.0 * libm::sin(0.5 * (d + angle)) * libm::sin(0.5 * (d - angle));
+            // |p|^2 = (s^2 + delta)/along with s linear along the line.
+            let delta = l * along + cos * cos * e1 * e3;
+            let (s1, s2) = (skew * cos - along * sin, skew * cos + along * sin);
+            let root = libm::sqrt(delta);
+            let width = 2.0 * along * sin;
+            let rational = width / (s1 * s1 + delta) * ((delta - s1 * s2) / (s2 * s2 + delta));
+            let angular = libm::atan2(root * width, delta + s1 * s2) / root;
+            height * sin * along / (2.0 * delta) * (rational + angular)
+        };
+        let sum = gauss(0.0, d, line);
+        libm::sqrt(e1 * e3 * l) * swing / PI * sum
+    }
+
+    /// G_ij = dE/dS_ij from the rim's part at the angles `start` .. `start + turn` of w, tan w = sqrt(B/A) tan u.
+    ///
+    /// A change dS moves the rim outward by n^T dS n / (2 |S n|) with n the unit normal of the tangent plane, and what
+    /// it sweeps counts with its height: E changes by (1/pi) times the integral of height times that along the rim.
+    fn gradient(&self, start: f64, turn: f64) -> DMat3 {
+        let &Principal { e1, e3, l, axes, .. } = self;
+        let (a, b, c) = (libm::sqrt(e1), libm::sqrt(e3), libm::sqrt(l));
+        let (root_a, root_b) = (libm::sqrt(l + e1), libm::sqrt(l + e3));
+        let mut moments = [0.0; 6];
+        gauss_nodes(|node, weight| {
+            let (sin, cos) = (start + 0.5 * turn * (1.0 + node)).sin_cos();
+            let (x, y) = (cos / root_a, sin / root_b);
+            let inverse = libm::sqrt(x * x + y * y);
+            let height = (axes.x_axis.z * a * x + axes.y_axis.z * b * y) / inverse + axes.z_axis.z * c;
+            let (m1, m2, m3) = (x / a, y / b, -inverse / c);
+            let products = [m1 * m1, m2 * m2, m3 * m3, m1 * m2, m1 * m3, m2 * m3];
+            for (moment, product) in moments.iter_mut().zip(products) {
+                *moment += weight * height * product;
+            }
+        });
+        let scale = 0.5 * turn * a * b * c / (TAU * root_a * root_b);
+        let [xx, yy, zz, xy, xz, yz] = moments.map(|moment| moment * scale);
+        let local = DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
+        axes * local * axes.transpose()
+    }
+}
+
+/// The integral of `f` over low .. high by the 24-point rule.
+fn gauss(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+    let mut sum = 0.0;
+    gauss_nodes(|node, weight| sum += weight * f(middle + half * node));
+    half * sum
+}
+
+/// Calls `visit` with the nodes in -1..1 and the weights of the 24-point Gauss-Legendre rule.
+fn gauss_nodes(mut visit: impl FnMut(f64, f64)) {
+    /// Positive roots of the Legendre polynomial P24 and 2/((1 - x^2) P24'(x)^2), to 17 digits.
+    const RULE: [(f64, f64); 12] = [
+        (0.995_187_219_997_021_36, 0.012_341_229_799_987_2),
+        (0.974_728_555_971_309_5, 0.028_531_388_628_933_663),
+        (0.938_274_552_002_732_8, 0.044_277_438_817_419_806),
+        (0.886_415_527_004_401, 0.059_298_584_915_436_78),
+        (0.820_001_985_973_902_9, 0.073_346_481_411_080_31),
+        (0.740_124_191_578_554_4, 0.086_190_161_531_953_28),
+        (0.648_093_651_936_975_6, 0.097_618_652_104_113_89),
+        (0.545_421_471_388_839_5, 0.107_444_270_115_965_63),
+        (0.433_793_507_626_045_14, 0.115_505_668_053_725_6),
+        (0.315_042_679_696_163_4, 0.121_670_472_927_803_39),
+        (0.191_118_867_473_616_3, 0.125_837_456_346_828_3),
+        (0.064_056_892_862_605_63, 0.127_938_195_346_752_16),
+    ];
+    for (node, weight) in RULE {
+        visit(-node, weight);
+        visit(node, weight);
+    }
+}

@@ -1,0 +1,91 @@
+//! Vectors and 3x3 matrices whose entries are f32 values: what can be had of them without rounding.
+
+use glam::DVec3;
+
+use super::exact;
+use super::twofold::{Twofold, two_product};
+
+/// A vector of twofold components.
+pub type Vector = [Twofold; 3];
+
+/// The matrix whose columns start at `columns[0]`, `[3]` and `[6]`, of f32 values.
+pub fn columns(values: &[f32]) -> [DVec3; 3] {
+    [0, 3, 6].map(|at| vector(&values[at..]))
+}
+
+/// Three f32 values.
+pub fn vector(values: &[f32]) -> DVec3 {
+    DVec3::new(f64::from(values[0]), f64::from(values[1]), f64::from(values[2]))
+}
+
+/// M v for f32 values: relative error 2^-104 of the largest product of a component, exactly 0 where it is 0.
+pub fn transformed(m: &[DVec3; 3], v: DVec3) -> Vector {
+    [0, 1, 2].map(|row| Twofold::sum3(m[0][row] * v.x, m[1][row] * v.y, m[2][row] * v.z))
+}
+
+/// The determinant of three vectors of f32 values, rounded once. Entries between 2^-300 and 2^300 in products of three.
+pub fn determinant(a: DVec3, b: DVec3, c: DVec3) -> f64 {
+    let mut terms = [0.0; 12];
+    let minors = [(b.y * c.z, b.z * c.y), (b.z * c.x, b.x * c.z), (b.x * c.y, b.y * c.x)];
+    for (column, (plus, minus)) in minors.into_iter().enumerate() {
+        let (p, q) = (two_product(plus, a[column]), two_product(minus, -a[column]));
+        terms[4 * column..4 * column + 4].copy_from_slice(&[p.0, p.1, q.0, q.1]);
+    }
+    exact::sum(&terms)
+}
+
+/// The power of two that brings the largest component of the vectors into 1/2..1; 1 for zero vectors.
+pub fn scale_to_one(vectors: &[Vector]) -> f64 {
+    let largest = vectors.iter().flatten().fold(0.0f64, |largest, c| largest.max(c.value().abs()));
+    libm::ldexp(1.0, -libm::frexp(largest).1)
+}
+
+/// The upper triangle xx, yy, zz, xy, xz, yz of v v^T.
+pub fn square(v: &Vector) -> [Twofold; 6] {
+    let [x, y, z] = *v;
+    [x * x, y * y, z * z, x * y, x * z, y * z]
+}
+
+/// M S M^T for symmetric S in the order of [`square`]: relative error 2^-100 of the largest products.
+pub fn congruence(m: &[DVec3; 3], s: &[Twofold; 6]) -> [Twofold; 6] {
+    let [xx, yy, zz, xy, xz, yz] = *s;
+    let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+    // Row i of M S.
+    let product = [0, 1, 2]
+        .map(|i| [0, 1, 2].map(|k| rows[0][k] * m[0][i] + rows[1][k] * m[1][i] + rows[2][k] * m[2][i]));
+    [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]
+        .map(|(i, j)| product[i][0] * m[0][j] + product[i][1] * m[1][j] + product[i][2] * m[2][j])
+}
+
+/// A symmetric matrix in f64, from the order of [`square`].
+pub fn symmetric(s: &[Twofold; 6]) -> glam::DMat3 {
+    let [xx, yy, zz, xy, xz, yz] = s.map(|component| component.value());
+    glam::DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Integers are the independent arithmetic: 20-bit entries leave no rounding anywhere.
+        #[test]
+        fn determinants_are_rounded_once(e in prop::array::uniform9(-(1i64 << 20)..(1i64 << 20)), shift in -40i32..40) {
+            let [a, b, c] = [0, 3, 6].map(|at| [e[at], e[at + 1], e[at + 2]].map(i128::from));
+            let exact = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+                + a[2] * (b[0] * c[1] - b[1] * c[0]);
+            let scale = 2f64.powi(shift);
+            let [a, b, c] = columns(&e.map(|v| v as f32)).map(|v| v * scale);
+            prop_assert_eq!(determinant(a, b, c), exact as f64 * scale * scale * scale);
+        }
+    }
+
+    #[test]
+    fn dependent_vectors_have_no_volume() {
+        let (a, b) = (DVec3::new(0.1f32.into(), 0.7, 3.0), DVec3::new(1.0, f64::from(0.3f32), 0.5));
+        let a = DVec3::new(a.x, f64::from(0.7f32), a.z);
+        assert_eq!(determinant(a, b, 2.0 * a), 0.0);
+        assert_eq!(determinant(a, b, a - 4.0 * b), 0.0);
+    }
+}
