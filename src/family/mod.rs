@@ -2,6 +2,7 @@
 
 mod ellipse_axes;
 mod ltc_line;
+mod ltc_strip;
 mod problem;
 
 pub use problem::{
@@ -9,7 +10,7 @@ pub use problem::{
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] = &[&ellipse_axes::EllipseAxes, &ltc_line::LtcLine];
+pub static FAMILIES: &[&dyn Problem] = &[&ellipse_axes::EllipseAxes, &ltc_line::LtcLine, &ltc_strip::LtcStrip];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {
