@@ -47,7 +47,9 @@ fn scalar_tolerance(family: &str, output: &str, row: &Row) -> f64 {
     let _ = output;
     match family {
         // A contour's sum is off by a few roundings of its terms, which are angles over 2 pi: 4e-15 absolutely.
-        "ltc_strip" => SCALAR + row.number("irradiance").filter(|value| *value > 0.0).map_or(0.0, |value| 4e-15 / value),
+        "ltc_cylinder" | "ltc_strip" => {
+            SCALAR + row.number("irradiance").filter(|value| *value > 0.0).map_or(0.0, |value| 4e-15 / value)
+        }
         _ => SCALAR,
     }
 }

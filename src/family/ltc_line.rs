@@ -43,13 +43,7 @@ impl Problem for LtcLine {
     }
 
     fn inputs(&self) -> &'static [Field] {
-        const {
-            &[
-                Field::new("minv", Type::Mat3),
-                Field::new("p1", Type::Vec3),
-                Field::new("p2", Type::Vec3),
-            ]
-        }
+        const { &[Field::new("minv", Type::Mat3), Field::new("p1", Type::Vec3), Field::new("p2", Type::Vec3)] }
     }
 
     /// Not a share of anything, since it is per unit radius: a light off by 0.1 % shows in 10 bits.
@@ -109,7 +103,12 @@ impl Problem for LtcLine {
                     // Kept orthogonal to the foot, so that the distance is as drawn.
                     let along = foot.cross(frame.y_axis).normalize();
                     let shift = draw.uniform(-0.8, 0.8);
-                    store(row, minv, foot + (shift - 1.0) * half * along, foot + (shift + 1.0) * half * along);
+                    store(
+                        row,
+                        minv,
+                        foot + (shift - 1.0) * half * along,
+                        foot + (shift + 1.0) * half * along,
+                    );
                 },
             },
             Scenario {
@@ -227,11 +226,8 @@ fn sensitivity(
     let transposed = minv.transpose();
     let by_p1 = determinant.abs() * integral * p2.cross(direction) + weight * (transposed * by_a);
     let by_p2 = determinant.abs() * integral * direction.cross(p1) + weight * (transposed * by_b);
-    let cofactors = [
-        minv.y_axis.cross(minv.z_axis),
-        minv.z_axis.cross(minv.x_axis),
-        minv.x_axis.cross(minv.y_axis),
-    ];
+    let cofactors =
+        [minv.y_axis.cross(minv.z_axis), minv.z_axis.cross(minv.x_axis), minv.x_axis.cross(minv.y_axis)];
     let mut sum = by_p1.abs().dot(p1.abs()) + by_p2.abs().dot(p2.abs());
     for (column, cofactor) in cofactors.into_iter().enumerate() {
         let by_column = determinant.signum() * size * integral * cofactor
@@ -296,7 +292,12 @@ fn edge(draw: &mut Draw, row: &mut [f32]) {
         3 => store(row, minv, p1, DVec3::ZERO),
         // On the horizon, and below it.
         4 => store(row, DMat3::IDENTITY, p1.with_z(0.0), p2.with_z(0.0)),
-        5 => store(row, DMat3::IDENTITY, p1.with_z(-p1.z), p2.with_z(if draw.sign() > 0.0 { 0.0 } else { -p2.z })),
+        5 => store(
+            row,
+            DMat3::IDENTITY,
+            p1.with_z(-p1.z),
+            p2.with_z(if draw.sign() > 0.0 { 0.0 } else { -p2.z }),
+        ),
         // A singular matrix.
         6 => store(row, DMat3::from_diagonal(DVec3::new(1.0, 0.0, 1.0)), p1, p2),
         // Any scale of the scene, which divides the answer.

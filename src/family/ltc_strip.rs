@@ -132,10 +132,10 @@ impl Problem for LtcStrip {
             return;
         }
         let cofactors = products::cofactors(&minv);
-        let (axis, from, to) = (products::cross(p1, p2), products::cross(p1, side), products::cross(side, p2));
-        let map = |terms: &[(f64, &products::Pairs)]| {
-            products::cofactors_times(&cofactors, &products::sum(terms))
-        };
+        let (axis, from, to) =
+            (products::cross(p1, p2), products::cross(p1, side), products::cross(side, p2));
+        let map =
+            |terms: &[(f64, &products::Pairs)]| products::cofactors_times(&cofactors, &products::sum(terms));
         // (p1 - side) x (p2 - side) and its like for the other edges, around the contour.
         let areas = [
             map(&[(1.0, &axis), (-1.0, &from), (-1.0, &to)]),
@@ -148,7 +148,8 @@ impl Problem for LtcStrip {
         let weight = determinant.abs() * volume.abs();
         if weight == 0.0 {
             let growth = growth(&minv, p1, p2, side);
-            let change = if holds_origin(p1, p2, side) { f64::INFINITY } else { growth * across(&mapped, &areas) };
+            let change =
+                if holds_origin(p1, p2, side) { f64::INFINITY } else { growth * across(&mapped, &areas) };
             truth.scalar(0, 0.0, 0.0, finite(FRAC_1_PI * change));
             return;
         }

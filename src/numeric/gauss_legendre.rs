@@ -46,7 +46,10 @@ mod tests {
                 let mut sum = 0.0;
                 visit(rule, 0.0, 2.0, |x, weight| sum += weight * x.powi(degree));
                 let exact = 2f64.powi(degree + 1) / f64::from(degree + 1);
-                assert!((sum / exact - 1.0).abs() < 4e-15, "{points} points, degree {degree}: {sum} for {exact}");
+                assert!(
+                    (sum / exact - 1.0).abs() < 4e-15,
+                    "{points} points, degree {degree}: {sum} for {exact}"
+                );
             }
         }
         let mut sum = 0.0;

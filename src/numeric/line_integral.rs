@@ -216,8 +216,14 @@ mod tests {
                 let step = 1e-5;
                 let of_a = (integral(a + step * axis, b) - integral(a - step * axis, b)) / (2.0 * step);
                 let of_b = (integral(a, b + step * axis) - integral(a, b - step * axis)) / (2.0 * step);
-                assert!((by_a.dot(axis) - of_a).abs() < 1e-5 * by_a.length(), "{a} {b}: {by_a} {axis} {of_a}");
-                assert!((by_b.dot(axis) - of_b).abs() < 1e-5 * by_b.length(), "{a} {b}: {by_b} {axis} {of_b}");
+                assert!(
+                    (by_a.dot(axis) - of_a).abs() < 1e-5 * by_a.length(),
+                    "{a} {b}: {by_a} {axis} {of_a}"
+                );
+                assert!(
+                    (by_b.dot(axis) - of_b).abs() < 1e-5 * by_b.length(),
+                    "{a} {b}: {by_b} {axis} {of_b}"
+                );
             }
         }
     }

@@ -16,11 +16,7 @@ pub type Pairs = [(f64, f64); 3];
 
 /// a x b, exactly.
 pub fn cross(a: DVec3, b: DVec3) -> Pairs {
-    [
-        two_sum(a.y * b.z, -(a.z * b.y)),
-        two_sum(a.z * b.x, -(a.x * b.z)),
-        two_sum(a.x * b.y, -(a.y * b.x)),
-    ]
+    [two_sum(a.y * b.z, -(a.z * b.y)), two_sum(a.z * b.x, -(a.x * b.z)), two_sum(a.x * b.y, -(a.y * b.x))]
 }
 
 /// The sum of exact vectors, each with a factor of -1, 1 or another power of two: off by 2^-105 of itself.
@@ -66,7 +62,12 @@ pub fn dot(a: DVec3, v: &Pairs) -> f64 {
     let mut terms = [0.0; 12];
     for (slots, (factor, (high, low))) in terms.chunks_exact_mut(4).zip(a.to_array().into_iter().zip(v)) {
         let (product, small) = (factor * high, factor * low);
-        slots.copy_from_slice(&[product, factor.mul_add(*high, -product), small, factor.mul_add(*low, -small)]);
+        slots.copy_from_slice(&[
+            product,
+            factor.mul_add(*high, -product),
+            small,
+            factor.mul_add(*low, -small),
+        ]);
     }
     exact::sum(&terms)
 }
@@ -130,11 +131,8 @@ mod tests {
         let (a, b): ([i128; 3], [i128; 3]) = ([9_999_991, 77, 1_234_567], [9_999_973, 76, 1_234_565]);
         let map = |v: [i128; 3]| [0, 1, 2].map(|row| (0..3).map(|k| m[k][row] * v[k]).sum::<i128>());
         let (ma, mb) = (map(a), map(b));
-        let expected = [
-            ma[1] * mb[2] - ma[2] * mb[1],
-            ma[2] * mb[0] - ma[0] * mb[2],
-            ma[0] * mb[1] - ma[1] * mb[0],
-        ];
+        let expected =
+            [ma[1] * mb[2] - ma[2] * mb[1], ma[2] * mb[0] - ma[0] * mb[2], ma[0] * mb[1] - ma[1] * mb[0]];
         let vector = |v: [i128; 3]| DVec3::from_array(v.map(|c| c as f64));
         let matrix = DMat3::from_cols(vector(m[0]), vector(m[1]), vector(m[2]));
         let got = cofactors_times(&cofactors(&matrix), &cross(vector(a), vector(b)));
