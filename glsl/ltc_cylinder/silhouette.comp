@@ -22,14 +22,19 @@ defines = { CHORDS = 8 }
 name = "silhouette_16"
 summary = "The silhouette with sixteen chords to an arc"
 defines = { CHORDS = 16 }
+
+[[variant]]
+name = "silhouette_16_scaled"
+summary = "silhouette_16, everything first scaled exactly by a power of two: any size of the scene"
+defines = { CHORDS = 16, SCALED = 1 }
 ---*/
 
 // Seen from outside, a capped cylinder ends at two generators, where the radius is R/gap of the way to the point, and at
 // an arc of each rim: the near one where the cap faces away, the far one where it is seen. Within the side's prolongation
 // only one cap is seen, a whole circle. The contour is mapped by Minv and summed as a polygon's, clipped edge by edge.
 //
-// An arc of angle t in n chords is short of its area by (t/n)^2/6 of the circle's; points between the ends are moved
-// out, so that the chords hold the arc's area: the ends have to stay on the generators.
+// An arc of angle t in n chords is short of its sector's area by (t/n)^2/6 of it; the points between the ends are moved
+// out until the chords hold that area, while the ends stay on the generators.
 //
 // Domain: any cylinder, the point within it too: 1.
 // Source: ours.
@@ -37,6 +42,9 @@ defines = { CHORDS = 16 }
 // Measured: -
 
 #include "common/cosine_contour.glsl"
+#ifdef SCALED
+#include "common/power_of_two.glsl"
+#endif
 
 const float PI = 3.14159265358979324;
 
@@ -62,6 +70,12 @@ void arc(inout CosineContour contour, vec3 center, vec3 towards, vec3 across, fl
 
 float ltc_cylinder(mat3 minv, vec3 p1, vec3 p2, float radius)
 {
+#ifdef SCALED
+    float scale = scale_to_one(max(max(largest_component(p1), largest_component(p2)), radius));
+    p1 *= scale;
+    p2 *= scale;
+    radius *= scale;
+#endif
     vec3 along = p2 - p1;
     float size = length(along);
     if (!(size > 0.0) || !(radius > 0.0)) {

@@ -126,12 +126,12 @@ impl Problem for LtcCylinder {
     }
 }
 
-/// How E changes when every vector is off by its own length in the worst direction: the silhouette's points are, by a
-/// few EPS of that.
+/// How E changes when every vector that the contour is made of is off by its own length in the worst direction, as it
+/// is by a few EPS of that. The axis's direction counts by itself: the difference of the ends is exact.
 fn normwise_sensitivity(minv: &DMat3, cylinder: &Cylinder, seen: &Seen) -> f64 {
-    let ends: f64 = seen.by_ends.iter().zip(cylinder.ends).map(|(by, p)| by.length() * p.length()).sum();
+    let rims: f64 = seen.by_rims.iter().zip(cylinder.ends).map(|(by, p)| by.length() * p.length()).sum();
     let map: f64 = (0..3).map(|k| seen.by_map[k].length() * minv.col(k).length()).sum();
-    ends + map + seen.by_radius.abs() * cylinder.radius
+    rims + seen.by_axis.length() + map + seen.by_radius.abs() * cylinder.radius
 }
 
 /// The sum over all inputs of |derivative times input|.

@@ -45,6 +45,9 @@ pub struct Seen {
     pub by_map: [DVec3; 3],
     pub by_ends: [DVec3; 2],
     pub by_radius: f64,
+    /// By the centres of the rims and by the axis's direction, apart: an end moves its rim, and tilts both.
+    pub by_rims: [DVec3; 2],
+    pub by_axis: DVec3,
 }
 
 impl Cylinder {
@@ -135,12 +138,10 @@ impl Contour<'_> {
             *slot += point[column] * by;
         }
         let back = self.map.transpose() * by;
-        self.seen.by_ends[end] += back;
+        self.seen.by_rims[end] += back;
         self.seen.by_radius += back.dot(radial);
         // A turning axis tilts the rims.
-        let tilt = (cylinder.radius / cylinder.length) * back.dot(cylinder.axis) * radial;
-        self.seen.by_ends[0] += tilt;
-        self.seen.by_ends[1] -= tilt;
+        self.seen.by_axis -= cylinder.radius * back.dot(cylinder.axis) * radial;
     }
 
     fn generator(&mut self, [from, to]: [usize; 2], angle: f64, corners: [u8; 2]) {
@@ -219,6 +220,8 @@ impl Contour<'_> {
             self.along_horizon(last, first);
         }
         self.seen.irradiance = (self.sum.abs() / TAU).min(1.0);
+        let tilt = self.seen.by_axis / self.cylinder.length;
+        self.seen.by_ends = [self.seen.by_rims[0] - tilt, self.seen.by_rims[1] + tilt];
         self.seen
     }
 }
