@@ -15,7 +15,7 @@
 //! most 2^20 configurations, and merges by integer addition and max.
 //!
 //! Who may use whom: `cli` -> `report` -> `record` -> `bench` -> `audit` -> `device`, `family` -> `catalog`, `sample`
-//! -> `numeric`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
+//! -> `numeric`; `cli` -> `fit` -> `sample`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
 
 pub mod audit;
 pub mod bench;
@@ -23,6 +23,7 @@ pub mod catalog;
 pub mod cli;
 pub mod device;
 pub mod family;
+pub mod fit;
 pub mod numeric;
 pub mod record;
 pub mod report;

@@ -4,16 +4,16 @@
 //! validation message: leaked objects and wrong synchronisation show there.
 #![allow(unsafe_code, reason = "a compiler's C interface and one environment variable")]
 
+mod drivers;
 mod glsl;
 
-use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
-use std::time::Instant;
 
-use rootq::catalog::Kernel;
+use rootq::catalog::{Field, Kernel, Signature, Type, Variant};
 use rootq::device::vulkan::{Instance, Options, VulkanDevice};
 use rootq::device::{Clock, Device, Error, Facts, Outputs};
+use rootq::numeric::binary16;
 
 /// Sum, product and negation: all correctly rounded on any device, so that results compare by bits.
 const ARITHMETIC: &str = "o[k] = i[k] + i[stride + k];
@@ -26,7 +26,7 @@ const SLOW: &str = "float x = i[k];
     o[k] = x + i[k];";
 
 fn kernel(id: &str, body: &str, inputs: usize, outputs: usize) -> Kernel {
-    Kernel { id: id.to_owned(), spirv: glsl::compile(body), inputs, outputs }
+    Kernel { id: id.to_owned(), spirv: glsl::compile(body), inputs, outputs, tables: Vec::new() }
 }
 
 fn arithmetic() -> Kernel {
@@ -57,24 +57,9 @@ fn install_drivers() {
         if std::env::var_os("VK_DRIVER_FILES").is_some() || std::env::var_os("VK_ICD_FILENAMES").is_some() {
             return;
         }
-        let lavapipe = std::fs::read_dir("/usr/share/vulkan/icd.d")
-            .into_iter()
-            .flatten()
-            .flatten()
-            .map(|entry| entry.path())
-            .find(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("lvp_icd.")))
-            .expect("lavapipe is not installed (Debian: apt-get install mesa-vulkan-drivers)");
-        let swiftshader: PathBuf =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("target/swiftshader/vk_swiftshader_icd.json");
-        assert!(
-            swiftshader.exists(),
-            "SwiftShader is not at {} (Debian: unpack libvk_swiftshader.so and vk_swiftshader_icd.json \
-             from the package chromium-common there)",
-            swiftshader.display()
-        );
-        let both = std::env::join_paths([lavapipe, swiftshader]).expect("paths without a colon");
-        // SAFETY: every test comes through here before it opens an instance, and the others wait; nobody else
-        // in this process reads or writes the environment meanwhile.
+        let both = drivers::both().unwrap_or_else(|message| panic!("{message}"));
+        // SAFETY: every test comes through here before it opens an instance, and the others wait; nobody else in this
+        // process reads or writes the environment meanwhile.
         unsafe { std::env::set_var("VK_DRIVER_FILES", both) };
     });
 }
@@ -143,7 +128,7 @@ fn validation_messages_are_heard() {
     let device = VulkanDevice::open(&instance, 0).expect("a device");
     // Sixteen bytes of push constants where the layout has twelve: wrong, and harmless to compile.
     let spirv = glsl::compile_with("uint first, count, stride, more;", "o[k] = i[k] + float(more);");
-    let kernel = Kernel { id: "test/greedy".to_owned(), spirv, inputs: 1, outputs: 1 };
+    let kernel = Kernel { id: "test/greedy".to_owned(), spirv, inputs: 1, outputs: 1, tables: Vec::new() };
     let _program = device.program(&kernel);
     let messages = instance.validation_messages();
     assert!(messages.iter().any(|message| message.contains("VUID")), "{messages:?}");
@@ -370,6 +355,133 @@ fn misuse_is_an_error() {
     });
 }
 
+/// A kernel that reads the 64 x 64 table `sphere_lut`, here with texels of the test's own, in the form given.
+fn table_kernel(form: &str, body: &str, texels: Vec<f32>) -> Kernel {
+    let text = format!(
+        "/*---\nsummary = \"test\"\nsource = \"ours\"\n[[variant]]\nname = \"{form}\"\n\
+         tables = {{ sphere_lut = \"{form}\" }}\n---*/\nfloat look(vec2 at) {{ return {body}; }}"
+    );
+    let signature = Signature {
+        function: "look",
+        parameters: vec![Field::new("at", Type::Vec2)],
+        results: vec![Field::new("texel", Type::Float)],
+    };
+    let variants = Variant::parse("look", "look/test.comp", &text).expect("a variant");
+    let mut kernel = variants[0].compile(&signature, false).expect("a kernel").kernel;
+    assert_eq!(kernel.tables.len(), 1);
+    kernel.tables[0].texels = texels.into();
+    kernel
+}
+
+const SAMPLED: &str = "textureLod(sphere_lut, at, 0.0).x";
+const SIDE: usize = 64;
+
+/// Texels that say where they are and lie within 1.
+fn numbered_texels() -> Vec<f32> {
+    (0..SIDE * SIDE).map(|texel| ((texel * 2_654_435_761) % 65_521) as f32 / 65_536.0).collect()
+}
+
+#[test]
+fn texels_of_a_buffer_are_exact() {
+    for options in [Options::default(), staged()] {
+        on_every_device(options, |device| {
+            let texels = numbered_texels();
+            let kernel = table_kernel("buffer", "sphere_lut_texel(ivec2(at))", texels.clone());
+            // Also beyond every edge, where the nearest texel is meant.
+            let rows: Vec<f32> =
+                (-3..67).flat_map(|y| (-3..67).flat_map(move |x| [x as f32, y as f32])).collect();
+            let outputs = evaluate(device, &kernel, &rows);
+            for (&got, at) in outputs.column(0).iter().zip(rows.chunks_exact(2)) {
+                let [x, y] = [at[0], at[1]].map(|coordinate| coordinate.clamp(0.0, 63.0) as usize);
+                assert_eq!(got.to_bits(), texels[y * SIDE + x].to_bits(), "{at:?}");
+            }
+        });
+    }
+}
+
+/// The largest error of the filter's weights, measured where one column of texels meets another of 1 instead of 0.
+fn weight_error(device: &VulkanDevice) -> f64 {
+    let edge = |texel: usize| if texel % SIDE >= 32 { 1.0 } else { 0.0 };
+    let kernel = table_kernel("image", SAMPLED, (0..SIDE * SIDE).map(edge).collect());
+    // Between the centres of texels 31 and 32; the coordinate's own rounding in f32 is 64 * 2^-25 of a texel.
+    let steps = 1 << 16;
+    let weight = |step: usize| step as f32 / steps as f32;
+    let rows: Vec<f32> =
+        (0..steps).flat_map(|step| [(31.5 + weight(step)) / SIDE as f32, 0.5 + 0.5 / SIDE as f32]).collect();
+    let outputs = evaluate(device, &kernel, &rows);
+    let errors =
+        outputs.column(0).iter().enumerate().map(|(step, got)| f64::from((got - weight(step)).abs()));
+    errors.fold(0.0, f64::max)
+}
+
+#[test]
+fn a_sampled_image_is_bilinear() {
+    for half_images in [false, true] {
+        on_every_device(Options { half_images, ..Options::default() }, |device| {
+            let bits = device.facts().table_image_bits;
+            assert!(bits == 32 && !half_images || bits == 16, "{bits}");
+            let weight_error = weight_error(device);
+            match weight_error {
+                0.0 => println!("{bits}-bit texels, filter weights exact to 16 bits"),
+                error => println!("{bits}-bit texels, filter weights good to {:.2} bits", -error.log2()),
+            }
+            // The least that Vulkan lets a device have (subTexelPrecisionBits), rounded either way.
+            assert!(weight_error <= 1.0 / 16.0, "{weight_error}");
+
+            let texels = numbered_texels();
+            let rounded: Vec<f64> = match bits {
+                32 => texels.iter().map(|texel| f64::from(*texel)).collect(),
+                _ => texels
+                    .iter()
+                    .map(|texel| f64::from(binary16::to_f32(binary16::from_f32(*texel))))
+                    .collect(),
+            };
+            let kernel = table_kernel("image", SAMPLED, texels);
+            // A lattice that meets no texel twice at the same weights, and reaches beyond every edge.
+            let rows: Vec<f32> = (0..100_000)
+                .flat_map(|row| {
+                    let along = |step: f64| ((f64::from(row) * step).fract() * 1.2 - 0.1) as f32;
+                    [along(0.618_033_988_749_895), along(0.754_877_666_246_693)]
+                })
+                .collect();
+            let outputs = evaluate(device, &kernel, &rows);
+            // Both directions' weights may be off, over texels that differ by at most 1; the coordinate's and the
+            // filter's own rounding is below 2^-16 (a half's, should the filter work in them: 2^-10).
+            let allowed = 2.0 * weight_error + if bits == 32 { 2f64.powi(-16) } else { 2f64.powi(-10) };
+            let mut worst: f64 = 0.0;
+            for (&got, at) in outputs.column(0).iter().zip(rows.chunks_exact(2)) {
+                let [x, y] = [at[0], at[1]].map(|c| (f64::from(c) * SIDE as f64 - 0.5).clamp(0.0, 63.0));
+                let texel = |dx: usize, dy: usize| {
+                    rounded[(y as usize + dy).min(63) * SIDE + (x as usize + dx).min(63)]
+                };
+                let along = |dy| texel(0, dy) * (1.0 - x.fract()) + texel(1, dy) * x.fract();
+                let expected = along(0) * (1.0 - y.fract()) + along(1) * y.fract();
+                worst = worst.max((f64::from(got) - expected).abs());
+            }
+            println!("worst difference from bilinear: {worst:e}");
+            assert!(worst <= allowed, "{worst:e} > {allowed:e}");
+        });
+    }
+}
+
+#[test]
+fn a_table_of_the_wrong_size_is_an_error() {
+    on_every_device(Options::default(), |device| {
+        for form in ["buffer", "image"] {
+            let body = if form == "buffer" { "sphere_lut_texel(ivec2(at))" } else { SAMPLED };
+            let kernel = table_kernel(form, body, vec![0.0; 100]);
+            assert!(matches!(device.program(&kernel), Err(Error::InvalidKernel { .. })));
+            let mut huge = table_kernel(form, body, vec![0.0; 1 << 14]);
+            (huge.tables[0].width, huge.tables[0].height) = (1 << 14, 1);
+            match device.program(&huge) {
+                Ok(_) => assert_eq!(form, "buffer"),
+                Err(Error::NotSupported { .. }) => assert_eq!(form, "image"),
+                Err(other) => panic!("{other}"),
+            }
+        }
+    });
+}
+
 /// What the loader finds depends on the environment, so these run in processes of their own.
 #[test]
 fn a_machine_without_drivers_or_layer_is_told_so() {
@@ -396,43 +508,5 @@ fn no_instance(validation: bool) -> Error {
     match Instance::open(validation) {
         Err(error) => error,
         Ok(instance) => instance.choose(None).expect_err("a device"),
-    }
-}
-
-/// What a chunk costs beyond its dispatches. Run with `--ignored --nocapture`.
-#[test]
-#[ignore = "a measurement"]
-fn overhead_of_a_chunk() {
-    install_drivers();
-    let instance = Instance::open(false).expect("a Vulkan loader");
-    let body = "for (uint c = 0; c < 8; ++c) o[c * stride + k] = i[c % 6 * stride + k];";
-    let kernel = kernel("test/copy", body, 6, 8);
-    let rows: Vec<f32> = (0..6 << 20).map(|value| value as f32).collect();
-    for facts in instance.devices().expect("devices") {
-        for force_staging in [false, true] {
-            let options = Options { force_staging, ..Options::default() };
-            let device = VulkanDevice::open_with(&instance, facts.index, options).expect("a device");
-            println!("{}, staging {force_staging}", facts.name);
-            let program = device.program(&kernel).expect("a program");
-            for round in 0..8 {
-                let start = Instant::now();
-                let inputs = device.upload(&rows, 6).expect("inputs");
-                let uploaded = start.elapsed();
-                let pending = device.submit(&program, &inputs).expect("a submission");
-                let submitted = start.elapsed();
-                let outputs = device.wait(pending).expect("outputs");
-                let finished = start.elapsed();
-                let sum: f64 =
-                    (0..8).flat_map(|column| outputs.column(column)).map(|&value| f64::from(value)).sum();
-                let read = start.elapsed();
-                println!(
-                    "{round}: upload {uploaded:?}, submit {:?}, wait {:?} of which {:?}, read {:?} ({sum:e})",
-                    submitted - uploaded,
-                    finished - submitted,
-                    outputs.elapsed().time,
-                    read - finished
-                );
-            }
-        }
     }
 }

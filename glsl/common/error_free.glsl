@@ -79,7 +79,8 @@ vec3 cross_mask(vec3 a, vec3 b)
 
 // a x b = ah x bh + ah x bl + al x b. The products of the first two terms are exact in f32, so contraction changes
 // nothing in them, and where the products of ah x bh cancel their difference is exact too. What remains are the
-// roundings of terms 2^-11 as large: an error below 2^-34 |a| |b|. Nothing here needs `precise`.
+// roundings of terms 2^-11 as large: an error below 2^-34 |a| |b|. Contraction is harmless, reassociation is not: a
+// compiler that factors a_high b_low + a_low b_low into a b has undone the splitting, and lavapipe does.
 // Source: ours.
 vec3 cross_split(vec3 a, vec3 b)
 {

@@ -20,7 +20,9 @@ precise = true
 //
 // Domain: none. Source: Heitz & Hill, "Real-Time Line- and Disk-Light Shading with Linearly Transformed Cosines",
 // SIGGRAPH 2017 course. Bound: none; two parallel axes of equal length, and the length is 1/l_min.
-// Measured: -
+// Measured: failed, and worst minor_len ULP where all are finite; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
+//                         scene           aspect      near_circle            scale             edge
+//   as_printed      100 % 3e+11        100 % inf        100 % inf        100 % inf        100 % inf
 
 EllipseAxes ellipse_axes(vec3 v1, vec3 v2)
 {

@@ -22,7 +22,9 @@ precise = true
 // Source: Golub & Van Loan, "Matrix Computations", section 8.5 (the angle).
 // Bound: e_min = mid - h still cancels: relative error about 2^-24 aspect^2, as in `naive`; l_max within 4 u,
 // u = 2^-24.
-// Measured: -
+// Measured: failed, and worst minor_len ULP where all are finite; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
+//                            scene           aspect      near_circle            scale             edge
+//   hypot_ordered          0 1e+03     57.8 % 4e+09           8x 2.1          0 1e+04       37.6 % inf
 
 #include "common/hypot.glsl"
 #include "common/orthogonal.glsl"

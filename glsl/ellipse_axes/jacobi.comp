@@ -25,7 +25,9 @@ precise = true
 // Source: Hestenes, "Inversion of matrices by biorthogonalization and related results", 1958; Golub & Van Loan,
 // "Matrix Computations", section 8.6.
 // Bound: l_max within 6 u; l_min within 6 u for orthogonal vectors and 2 u aspect for skewed ones, u = 2^-24.
-// Measured: -
+// Measured: failed, and worst minor_len ULP where all are finite; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
+//                     scene           aspect      near_circle            scale             edge
+//   jacobi            0 3.8          0 3e+05           8x 3.9             0 33       13.1 % inf
 
 #include "common/eigen_angle.glsl"
 #include "common/orthogonal.glsl"

@@ -22,7 +22,9 @@ precise = true
 // Bound: det Q = q11 q22 - q12^2 still cancels, relative error about 2^-24 aspect^2 for skewed vectors, and its
 // square root passes half of that on to l_min; det Q < 0 gives NaN throughout. For orthogonal vectors det Q does
 // not cancel, and the difference in l_min costs 2^-24 aspect only.
-// Measured: -
+// Measured: failed, and worst minor_len ULP where all are finite; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
+//                    scene           aspect      near_circle            scale             edge
+//   sqrtq   0.0634 % 1e+03       51.9 % inf         80 % inf       45.5 % inf       98.5 % inf
 
 EllipseAxes ellipse_axes(vec3 v1, vec3 v2)
 {

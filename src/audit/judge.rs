@@ -134,6 +134,14 @@ fn unit_vector(output: &Output, sign_free: bool, value: DVec3, truth: DVec3, sen
     };
     // binary16 has steps of 2^-11 just below 1.
     let mut measure = Measure::graded(angle, angle, [UNIT_ROUNDOFF, 1.0 / 2048.0], output, sensitivity);
+    // First order understates large turns: a perturbation that turns an axis by E to first order turns it by
+    // asin(2 E)/2 at most, and anywhere once 2 E reaches 1 (the sin 2 theta theorem of Davis and Kahan, 1970).
+    if measure.verdict == Verdict::Inaccurate {
+        let double = 2.0 * EXPLAINED_BY_ROUNDING * UNIT_ROUNDOFF * sensitivity;
+        if double >= 1.0 || angle <= 0.5 * f64::asin(double) {
+            measure.verdict = Verdict::IllConditioned;
+        }
+    }
     if (norm - 1.0).abs() > output.tolerance {
         measure.verdict = Verdict::NotUnit;
     }
@@ -205,6 +213,12 @@ mod tests {
         assert_eq!(verdict(&WAY, [0.0, 0.0, -1.0], 1.0), Verdict::Inaccurate);
         assert_eq!(verdict(&AXIS, [0.002, 0.0, 1.0], 1.0), Verdict::Inaccurate);
         assert_eq!(verdict(&AXIS, [0.002, 0.0, 1.0], 0.01 / UNIT_ROUNDOFF), Verdict::IllConditioned);
+        // Half a radian to first order may be any turn; a quarter, at most asin(1/2)/2 = 0.26.
+        assert_eq!(verdict(&AXIS, [1.0, 0.0, 0.0], 0.5 / (4.0 * UNIT_ROUNDOFF)), Verdict::IllConditioned);
+        let turned = |angle: f32| [angle.sin(), 0.0, angle.cos()];
+        let quarter = 0.25 / (4.0 * UNIT_ROUNDOFF);
+        assert_eq!(verdict(&AXIS, turned(0.261), quarter), Verdict::IllConditioned);
+        assert_eq!(verdict(&AXIS, turned(0.263), quarter), Verdict::Inaccurate);
         assert_eq!(verdict(&AXIS, [1.0, 0.0, 0.0], f64::INFINITY), Verdict::Ok);
         assert_eq!(verdict(&AXIS, [0.0, 0.0, 1.1], 1.0), Verdict::NotUnit);
         assert_eq!(verdict(&AXIS, [0.0, 0.0, 0.0], f64::INFINITY), Verdict::NotUnit);

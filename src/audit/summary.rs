@@ -85,7 +85,7 @@ impl Summary {
     /// Judges one configuration's outputs, given as all components in column order.
     pub(super) fn judge(&mut self, problem: &dyn Problem, row: Row<'_>, values: &[f32; MAX_COMPONENTS]) {
         let outputs = problem.outputs();
-        let mut measures: [Option<Measure>; MAX_OUTPUTS] = [None; MAX_OUTPUTS];
+        let (mut errors, mut ulps) = ([0.0; MAX_OUTPUTS], [0.0; MAX_OUTPUTS]);
         let mut starts = [0; MAX_OUTPUTS];
         let mut verdict = Verdict::Ok;
         let mut start = 0;
@@ -100,7 +100,7 @@ impl Summary {
                 row.sensitivities[position],
             );
             verdict = verdict.max(measure.verdict);
-            measures[position] = Some(measure);
+            (errors[position], ulps[position]) = (measure.error, measure.ulp);
             self.outputs[position].add(&measure, output.tolerance, row.index);
         }
         for relation in problem.relations() {
@@ -117,20 +117,19 @@ impl Summary {
         for (bins, bin) in self.landmarks.iter_mut().zip(row.bins) {
             let bin = &mut bins[usize::from(*bin)];
             bin.verdicts[verdict as usize] += 1;
-            for ((beyond, measure), output) in bin.beyond.iter_mut().zip(&measures).zip(outputs) {
-                *beyond += u64::from(measure.is_some_and(|m| m.error > output.tolerance));
+            for ((beyond, error), output) in bin.beyond.iter_mut().zip(&errors).zip(outputs) {
+                *beyond += u64::from(*error > output.tolerance);
             }
         }
         if verdict.is_failure() {
-            let measured = || measures.iter().flatten();
             self.failures.offer(row.index, || Failure {
                 index: row.index,
                 verdict,
                 inputs: row.inputs.to_vec(),
                 outputs: values[..start].to_vec(),
                 truth: row.truth.to_vec(),
-                errors: measured().map(|measure| measure.error).collect(),
-                ulps: measured().map(|measure| measure.ulp).collect(),
+                errors: errors[..outputs.len()].to_vec(),
+                ulps: ulps[..outputs.len()].to_vec(),
             });
         }
     }

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::Error;
+use super::kernel::TableForm;
+use super::table::TableName;
 
 const OPENING: &str = "/*---";
 const CLOSING: &str = "---*/";
@@ -34,6 +36,9 @@ pub struct Declaration {
     /// Preprocessor definitions.
     #[serde(default)]
     pub defines: BTreeMap<String, Define>,
+    /// Built-in tables that the text reads, and how: `tables = { sphere_lut = "image" }`.
+    #[serde(default)]
+    pub tables: BTreeMap<TableName, TableForm>,
     /// Every floating-point operation is decorated NoContraction, as if each were `precise`.
     #[serde(default)]
     pub precise: bool,
@@ -130,6 +135,16 @@ mod tests {
             (
                 "/*---\nsummary = \"s\"\nsource = \"o\"\n[[variant]]\nname = \"A\"\n---*/",
                 "f.comp:5: variant name 'A'",
+            ),
+            (
+                "/*---\nsummary = \"s\"\nsource = \"o\"\n[[variant]]\nname = \"a\"\n\
+                 tables = { cube_lut = \"buffer\" }\n---*/",
+                "f.comp:6: no table 'cube_lut'; there are: ",
+            ),
+            (
+                "/*---\nsummary = \"s\"\nsource = \"o\"\n[[variant]]\nname = \"a\"\n\
+                 tables = { sphere_lut = \"texture\" }\n---*/",
+                "f.comp:6: unknown variant `texture`, expected `buffer` or `image`",
             ),
         ];
         for (text, expected) in cases {

@@ -2,11 +2,23 @@
 //!
 //! Storage buffers, all in descriptor set 0, hold f32 columns one after another (structure of arrays):
 //! component `c` of configuration `i` is at element `c * stride + i`.
+//!
+//! Tables, where a variant asks for any, are in descriptor set 1: they stay as they are while columns come and go.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
 
 /// Binding of the input columns.
 pub const INPUTS_BINDING: u32 = 0;
 /// Binding of the output columns.
 pub const OUTPUTS_BINDING: u32 = 1;
+/// Descriptor set of the columns.
+pub const COLUMNS_SET: u32 = 0;
+/// Descriptor set of the tables.
+pub const TABLES_SET: u32 = 1;
+/// Binding of the first table, in order of names; no other set uses the same numbers.
+pub const FIRST_TABLE_BINDING: u32 = 2;
 /// The kernel's invocations a workgroup, along x only.
 pub const LOCAL_SIZE: u32 = 64;
 
@@ -46,4 +58,30 @@ pub struct Kernel {
     pub inputs: usize,
     /// Number of output columns.
     pub outputs: usize,
+    /// Tables that it reads, by ascending binding.
+    pub tables: Vec<TableBinding>,
+}
+
+/// How a kernel reads a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TableForm {
+    /// A storage buffer: exact texels, filtered by the shader if at all.
+    Buffer,
+    /// A sampled image: bilinear filter, clamped to the edge.
+    Image,
+}
+
+/// One table as a kernel's resource.
+#[derive(Clone, Debug)]
+pub struct TableBinding {
+    pub name: &'static str,
+    pub binding: u32,
+    pub form: TableForm,
+    pub width: u32,
+    pub height: u32,
+    /// Floats a texel, 1 or 4.
+    pub channels: u32,
+    /// Row-major: channel `c` of texel (x, y) is at `(y * width + x) * channels + c`.
+    pub texels: Arc<[f32]>,
 }

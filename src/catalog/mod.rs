@@ -9,6 +9,7 @@ mod glslang;
 pub mod kernel;
 mod reflect;
 pub mod signature;
+mod table;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,9 +17,10 @@ use std::path::Path;
 use include_dir::{Dir, include_dir};
 
 pub use front_matter::{Declaration, Define, FrontMatter};
-pub use kernel::Kernel;
+pub use kernel::{Kernel, TableBinding, TableForm};
 pub use reflect::Facts;
 pub use signature::{Field, Signature, Type};
+pub use table::{Table, TableName, tables};
 
 static BUILT_IN: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/glsl");
 
@@ -40,6 +42,8 @@ pub struct Variant {
     /// File below `glsl/`, as messages name it: `ellipse_axes/cross.comp`.
     pub file: String,
     pub defines: BTreeMap<String, Define>,
+    /// Built-in tables that it reads, and how.
+    pub tables: BTreeMap<TableName, TableForm>,
     /// Whether every floating-point operation is decorated NoContraction.
     pub precise: bool,
     text: String,
@@ -126,6 +130,7 @@ impl Variant {
             tried: front.tried.clone(),
             file: file.to_owned(),
             defines: declared.defines,
+            tables: declared.tables,
             precise: declared.precise,
             text: text.to_owned(),
         };
@@ -139,10 +144,12 @@ impl Variant {
 
     /// Compiles the variant as `signature`'s function; `debug_lines` keeps source lines in the module.
     pub fn compile(&self, signature: &Signature, debug_lines: bool) -> Result<Compiled, Error> {
+        let tables = table::bindings(&self.tables);
         // The front matter is a GLSL comment, so the file's own line numbers hold.
         let text = format!(
-            "{}#line 1 \"{}\"\n{}\n#line 1 \"{GENERATED}\"\n{}",
+            "{}{}#line 1 \"{}\"\n{}\n#line 1 \"{GENERATED}\"\n{}",
             generate::prologue(signature, self.defines.iter()),
+            generate::tables(&tables),
             self.file,
             self.text,
             generate::epilogue(signature),
@@ -162,6 +169,7 @@ impl Variant {
             spirv,
             inputs: signature.input_columns().len(),
             outputs: signature.output_columns().len(),
+            tables,
         };
         Ok(Compiled { kernel, facts })
     }

@@ -6,9 +6,7 @@ use clap::Args;
 use crate::device::vulkan::Instance;
 use crate::report;
 
-/// Lists every device the Vulkan loader finds, in the order of '--device' indices.
-///
-/// VK_DRIVER_FILES chooses the drivers, as for any Vulkan program.
+/// Options of `rootq devices`.
 #[derive(Args, Debug)]
 pub(super) struct Arguments {
     /// Everything known of each device, as a JSON array

@@ -1,14 +1,15 @@
 //! `rootq eval`: the user's own configurations, CSV to CSV.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Read, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, BufWriter, Read};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 use tempfile::NamedTempFile;
 
+use super::draft::{deliver, draft, is_dash};
 use super::machine::{DeviceArguments, Machine};
 use super::selection;
 use crate::audit::Chunk;
@@ -18,11 +19,7 @@ use crate::device::{Device, Outputs};
 use crate::family::Problem;
 use crate::record::configurations::Reader;
 
-/// Evaluates configurations from a CSV by the oracle and by variants.
-///
-/// The input's header names the family's columns in any order ('rootq list FAMILY' shows them); values are decimal or
-/// hexadecimal floats (0x1.8p-3), rounded once to f32. The output has one line an input line, in the same order, with
-/// the columns oracle.<column> (17 digits) and <variant>.<column> (9 digits), which read back to the same bits.
+/// Options of `rootq eval`.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     rootq eval ellipse_axes --inputs in.csv --output out.csv\n  \
@@ -154,40 +151,5 @@ fn write_all<R: Read>(
         }
     }
     csv.flush()?;
-    Ok(())
-}
-
-fn is_dash(path: &Path) -> bool {
-    path.as_os_str() == "-"
-}
-
-/// A file beside the target, or anywhere if the target is standard output.
-fn draft(target: &Path) -> Result<NamedTempFile> {
-    if is_dash(target) {
-        return NamedTempFile::new().context("no temporary file");
-    }
-    if target.is_dir() {
-        bail!("cannot write {}: it is a folder", target.display());
-    }
-    let parent = match target.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    NamedTempFile::new_in(parent).map_err(|error| anyhow!("cannot write {}: {}", target.display(), error))
-}
-
-fn deliver(mut draft: NamedTempFile, target: &Path) -> Result<()> {
-    if is_dash(target) {
-        let mut file = draft.reopen()?;
-        io::copy(&mut file, &mut io::stdout().lock())?;
-        return Ok(());
-    }
-    draft.flush()?;
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        draft.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))?;
-    }
-    draft.persist(target).map_err(|error| anyhow!("cannot write {}: {}", target.display(), error.error))?;
     Ok(())
 }

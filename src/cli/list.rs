@@ -10,7 +10,7 @@ use super::selection;
 use crate::catalog::{Catalog, Variant};
 use crate::family::{FAMILIES, Problem};
 
-/// Lists every family, or one with its columns, scenarios, landmark coordinates and variants.
+/// Options of `rootq list`.
 #[derive(Args, Debug)]
 pub(super) struct Arguments {
     /// Show only this family, in full

@@ -5,7 +5,9 @@
 
 mod count;
 mod devices;
+mod draft;
 mod eval;
+mod fit;
 mod list;
 mod machine;
 mod run;
@@ -37,17 +39,43 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Verb {
     /// The Vulkan devices of this machine
+    ///
+    /// Lists every device the Vulkan loader finds, in the order of '--device' indices. VK_DRIVER_FILES chooses the
+    /// drivers, as for any Vulkan program; ROOTQ_VULKAN_LOADER names another loader library than the system's.
     Devices(devices::Arguments),
     /// Families, their columns and scenarios, and variants
+    ///
+    /// Lists every family, or one with its function's signature, columns, scenarios, landmark coordinates and variants.
     List(list::Arguments),
     /// Audit and time variants, show tables, leave a run folder
+    ///
+    /// Runs variants over random configurations of each scenario, compares every result with the oracle, and takes the
+    /// time. Tables go to standard output. The run folder holds run.json (counts, histograms, quantiles, worst
+    /// configurations, times, and what repeats the run) and failures.parquet (a sample of failing configurations with
+    /// their exact bits). The same seed gives the same counts on any number of threads and with any chunk size.
     Run(run::Arguments),
     /// Only the precision half of 'run'
+    ///
+    /// Runs variants over random configurations of each scenario and compares every result with the oracle. See 'rootq
+    /// run --help' for what it leaves.
     Audit(run::Arguments),
     /// Only the throughput half of 'run'
+    ///
+    /// Takes the time of variants by the device's own timestamps, one evaluation a configuration, inputs from memory
+    /// and outputs to it. Variants are interleaved; the table has the median and the quartiles of nanoseconds a
+    /// configuration.
     Bench(run::Arguments),
     /// Evaluate your own configurations, by oracle and variants, CSV to CSV
+    ///
+    /// The input's header names the family's columns in any order ('rootq list FAMILY' shows them); values are decimal
+    /// or hexadecimal floats (0x1.8p-3), rounded once to f32. The output has one line an input line, in the same order,
+    /// with the columns oracle.<column> (17 digits) and <variant>.<column> (9 digits), which read back to the same
+    /// bits. A mistake anywhere in the input leaves no output at all.
     Eval(eval::Arguments),
+    /// Fit tables that shaders sample
+    ///
+    /// One material so far; 'rootq fit ggx --help' says what its table holds.
+    Fit(fit::Arguments),
 }
 
 /// Runs the program on the process's arguments.
@@ -74,6 +102,7 @@ pub fn main() -> ExitCode {
         Verb::Audit(arguments) => run::run(&arguments, run::Halves::Audit, &stop),
         Verb::Bench(arguments) => run::run(&arguments, run::Halves::Bench, &stop),
         Verb::Eval(arguments) => eval::eval(&arguments, &stop),
+        Verb::Fit(arguments) => fit::fit(&arguments, &stop),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

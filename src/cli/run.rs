@@ -27,11 +27,7 @@ pub(super) enum Halves {
     Bench,
 }
 
-/// Runs variants over random configurations of each scenario, compares with the oracle and takes their time.
-///
-/// Tables go to standard output. The run folder holds run.json (counts, histograms, quantiles, worst configurations,
-/// times, and what repeats the run) and failures.parquet (a sample of failing configurations with their exact bits).
-/// The same seed gives the same counts on any number of threads and with any chunk size.
+/// Options of `rootq run`, `audit` and `bench`.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     rootq run                                         every built-in variant, every scenario\n  \
@@ -212,7 +208,7 @@ fn measure(
 
     if halves != Halves::Bench {
         let total = arguments.configurations * family.programs.len() as u64;
-        let bar = bar(total, &format!("audit {label}"), "{human_pos}/{human_len} {per_sec} {eta}");
+        let bar = bar(total, &format!("audit {label}"), "{human_pos} of {human_len}  {elapsed}, {eta} to go");
         let audited = audit::audit(device, &family.programs, &plan, &|count| bar.inc(count), stop)?;
         bar.finish_and_clear();
         oracle = Some(audited.oracle.into());
@@ -256,7 +252,7 @@ fn measure(
 }
 
 /// A progress bar on standard error; invisible where that is no terminal.
-fn bar(length: u64, message: &str, tail: &str) -> ProgressBar {
+pub(super) fn bar(length: u64, message: &str, tail: &str) -> ProgressBar {
     let bar = ProgressBar::new(length).with_message(message.to_owned());
     let shape = if length == 0 { "{spinner}" } else { "{wide_bar}" };
     if let Ok(style) = ProgressStyle::with_template(&format!("{{msg:30}} {shape} {tail}")) {

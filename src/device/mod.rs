@@ -99,6 +99,10 @@ pub struct Facts {
     pub timestamp_period: f32,
     /// Meaningful bits of a timestamp; 0: no timestamps, times come from fences.
     pub timestamp_bits: u32,
+    /// Bits of a channel in tables that kernels read as sampled images: 32, 16 where the device does not filter 32-bit
+    /// floats linearly, 0 where it filters none.
+    #[serde(default)]
+    pub table_image_bits: u32,
     /// Validation layer active.
     pub validation: bool,
 }

@@ -1,18 +1,32 @@
 //! The problems: one file each, and the slice that lists them.
 
+mod cone_axes;
+mod edge_integral;
 mod ellipse_axes;
+mod horizon_sphere;
 mod ltc_cylinder;
 mod ltc_line;
+mod ltc_polygon;
 mod ltc_strip;
 mod problem;
+mod sym3_eigen;
 
 pub use problem::{
     CERTIFIED, Landmark, MAX_COMPONENTS, MAX_OUTPUTS, Output, Problem, Quantity, Relation, Scenario, Truth,
 };
 
 /// Every family, sorted by name.
-pub static FAMILIES: &[&dyn Problem] =
-    &[&ellipse_axes::EllipseAxes, &ltc_cylinder::LtcCylinder, &ltc_line::LtcLine, &ltc_strip::LtcStrip];
+pub static FAMILIES: &[&dyn Problem] = &[
+    &cone_axes::ConeAxes,
+    &edge_integral::EdgeIntegral,
+    &ellipse_axes::EllipseAxes,
+    &horizon_sphere::HorizonSphere,
+    &ltc_cylinder::LtcCylinder,
+    &ltc_line::LtcLine,
+    &ltc_polygon::LtcPolygon,
+    &ltc_strip::LtcStrip,
+    &sym3_eigen::Sym3Eigen,
+];
 
 /// The family of that name.
 pub fn find(name: &str) -> Option<&'static dyn Problem> {

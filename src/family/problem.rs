@@ -170,6 +170,18 @@ impl Truth {
         self.worst_bound = self.worst_bound.max(bound / f32_spacing(value));
     }
 
+    /// Sets a vector that has a length. `bound` is the absolute error bound of `value` as the distance of the two, counted
+    /// in f32 spacings of its norm; `sensitivity` the length of the exact value's change for a relative change of every
+    /// input by one, infinite where the inputs do not define the vector (any finite one is right then).
+    pub fn vector(&mut self, output: usize, value: glam::DVec3, bound: f64, sensitivity: f64) {
+        let offset = self.offset(output);
+        self.values[offset..offset + 3].copy_from_slice(&value.to_array());
+        self.sensitivities[output] = sensitivity;
+        if sensitivity.is_finite() {
+            self.worst_bound = self.worst_bound.max(bound / f32_spacing(value.length()));
+        }
+    }
+
     /// Sets a unit vector; bound and sensitivity are angles in radians. An infinite sensitivity says that the direction
     /// is not defined by the inputs: any unit vector that keeps the family's relations is right.
     pub fn unit_vector(&mut self, output: usize, value: glam::DVec3, bound: f64, sensitivity: f64) {

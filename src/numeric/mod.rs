@@ -1,8 +1,16 @@
-//! Pure mathematics: spacing of floating-point formats, exact sums and products, quadrature, integrals along lines.
+//! Pure mathematics: spacing of floating-point formats, exact sums and products, quadrature, cubics, and the
+//! integrals that several families share.
 
+pub mod binary16;
+pub mod clipped_sphere;
+pub mod cubic;
 pub mod cylinder_silhouette;
+pub mod double_double;
 pub mod exact;
 pub mod gauss_legendre;
 pub mod line_integral;
+pub mod polygon_irradiance;
 pub mod products;
 pub mod spacing;
+pub mod symmetric3;
+pub mod twofold;

@@ -32,7 +32,7 @@ pub struct FailureGroup {
 pub enum Error {
     #[error("cannot {action} {}", path.display())]
     Io { action: &'static str, path: PathBuf, source: std::io::Error },
-    #[error("{} holds a run already; choose another --out, or --force to replace it", path.display())]
+    #[error("{} is not empty; choose another --out (--force replaces an earlier run)", path.display())]
     Occupied { path: PathBuf },
     #[error("cannot write {}", path.display())]
     Json { path: PathBuf, source: serde_json::Error },

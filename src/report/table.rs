@@ -37,11 +37,15 @@ pub fn run(run: &Run, colour: bool) -> String {
             text.push_str(&scenario_table(family, position, colour));
         }
         if family.scenarios.len() > 1 {
-            _ = writeln!(
-                text,
-                "\n{}: failed, by scenario, and median ns a configuration on '{}'",
-                family.name, family.scenarios[0].name
-            );
+            let first = &family.scenarios[0].name;
+            let audited = has(family, |result| result.audit.is_some());
+            let timed = has(family, |result| result.timing.is_some());
+            let shown = match (audited, timed) {
+                (true, true) => format!("failed, by scenario, and median ns a configuration on '{first}'"),
+                (true, false) => "failed, by scenario".to_owned(),
+                _ => format!("median ns a configuration on '{first}'"),
+            };
+            _ = writeln!(text, "\n{}: {shown}", family.name);
             text.push_str(&overview(family, colour));
         }
         for variant in &family.variants {
@@ -114,20 +118,32 @@ fn audit_cells(audit: &Audit, headline: &[usize]) -> Vec<Cell> {
 /// Bucket 513 holds what is not finite.
 const LAST_FINITE: usize = 513;
 
+fn has(family: &Family, what: impl Fn(&Result) -> bool) -> bool {
+    family.variants.iter().flat_map(|variant| &variant.results).any(what)
+}
+
 fn overview(family: &Family, colour: bool) -> String {
+    let audited = has(family, |result| result.audit.is_some());
+    let timed = has(family, |result| result.timing.is_some());
     let mut header = vec!["variant".to_owned()];
-    header.extend(family.scenarios.iter().map(|scenario| scenario.name.clone()));
-    header.push("ns".to_owned());
+    if audited {
+        header.extend(family.scenarios.iter().map(|scenario| scenario.name.clone()));
+    }
+    if timed {
+        header.push("ns".to_owned());
+    }
     let mut table = table(&header, colour);
     for variant in family.variants.iter().filter(|variant| variant.skipped.is_none()) {
         let result = |name: &str| variant.results.iter().find(|result| result.scenario == name);
         let mut row = vec![Cell::new(&variant.name)];
-        for scenario in &family.scenarios {
+        for scenario in family.scenarios.iter().filter(|_| audited) {
             let audit = result(&scenario.name).and_then(|result| result.audit.as_ref());
             row.push(audit.map_or_else(|| Cell::new(""), |audit| graded(&audit.failed)));
         }
-        let timing = result(&family.scenarios[0].name).and_then(|result| result.timing.as_ref());
-        row.push(Cell::new(timing.map_or_else(String::new, |timing| format!("{:.2}", timing.ns.median))));
+        if timed {
+            let timing = result(&family.scenarios[0].name).and_then(|result| result.timing.as_ref());
+            row.push(Cell::new(timing.map_or_else(String::new, |timing| format!("{:.2}", timing.ns.median))));
+        }
         table.add_row(row);
     }
     right_align(&mut table);

@@ -1,12 +1,11 @@
 //! The two real drivers that every device test runs on. A missing one is an error here, never a skip.
-#![allow(dead_code, reason = "each test binary uses its own part")]
 
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Lavapipe's manifest, from the folders in which the Vulkan loader looks.
-pub fn lavapipe() -> Result<PathBuf, String> {
+fn lavapipe() -> Result<PathBuf, String> {
     let folders = ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d"];
     let manifests = folders.iter().filter_map(|folder| fs::read_dir(folder).ok()).flatten().flatten();
     manifests
@@ -16,7 +15,7 @@ pub fn lavapipe() -> Result<PathBuf, String> {
 }
 
 /// SwiftShader's manifest, unpacked by `make test`.
-pub fn swiftshader() -> Result<PathBuf, String> {
+fn swiftshader() -> Result<PathBuf, String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/swiftshader/vk_swiftshader_icd.json");
     if path.exists() {
         return Ok(path);
@@ -25,6 +24,6 @@ pub fn swiftshader() -> Result<PathBuf, String> {
 }
 
 /// Both, as `VK_DRIVER_FILES` wants them.
-pub fn both() -> Result<OsString, String> {
+pub(crate) fn both() -> Result<OsString, String> {
     std::env::join_paths([lavapipe()?, swiftshader()?]).map_err(|error| error.to_string())
 }

@@ -7,6 +7,7 @@ use ash::{khr, vk};
 use super::call::Named;
 use super::capability::{Abilities, FloatModes};
 use super::instance::Loaded;
+use super::texel::TexelWidth;
 use crate::device::{Error, Facts, FloatControls};
 
 /// A physical device that can run kernels.
@@ -19,6 +20,8 @@ pub(super) struct Adapter {
     /// The queue family to use.
     pub(super) family: u32,
     pub(super) abilities: Abilities,
+    /// Texels of sampled tables.
+    pub(super) texel_width: Option<TexelWidth>,
     /// Extensions to enable with the device.
     pub(super) extensions: Vec<&'static CStr>,
 }
@@ -120,6 +123,7 @@ impl Adapter {
             float_modes: float_modes(&float_controls),
             non_semantic,
         };
+        let texel_width = TexelWidth::widest(instance, physical);
         let facts = Facts {
             index,
             name: text(plain.device_name_as_c_str().ok()),
@@ -139,6 +143,7 @@ impl Adapter {
             unified_memory: unified(plain.device_type, &memory),
             timestamp_period: plain.limits.timestamp_period,
             timestamp_bits,
+            table_image_bits: texel_width.map_or(0, TexelWidth::bits),
             validation: loaded.validating(),
         };
         Ok(Some(Self {
@@ -148,6 +153,7 @@ impl Adapter {
             max_allocation: maintenance.max_memory_allocation_size,
             family,
             abilities,
+            texel_width,
             extensions,
         }))
     }

@@ -14,6 +14,7 @@ use super::logical::Logical;
 use super::memory::Memory;
 use super::owned::Owned;
 use super::pool::Pool;
+use super::texel::TexelWidth;
 use super::vulkan_device::Options;
 use crate::catalog::kernel::{INPUTS_BINDING, LOCAL_SIZE, OUTPUTS_BINDING, Range};
 use crate::device::{Clock, Error};
@@ -39,6 +40,7 @@ pub(super) struct Engine {
     /// Kernels work on device memory, with copies to and from it.
     pub(super) staging: bool,
     pub(super) poison: bool,
+    texel_width: Option<TexelWidth>,
 }
 
 struct Limits {
@@ -82,15 +84,7 @@ impl Engine {
         // SAFETY: a live device and filled-in descriptions, here and below.
         let set_layout = unsafe { device.create_descriptor_set_layout(&create, None) };
         let set_layout = Owned::new(&logical, set_layout.named("vkCreateDescriptorSetLayout")?);
-        let layouts = [set_layout.get()];
-        let constants = [vk::PushConstantRange::default()
-            .stage_flags(vk::ShaderStageFlags::COMPUTE)
-            .size(size_of::<Range>() as u32)];
-        let create =
-            vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts).push_constant_ranges(&constants);
-        // SAFETY: as above.
-        let pipeline_layout = unsafe { device.create_pipeline_layout(&create, None) };
-        let pipeline_layout = Owned::new(&logical, pipeline_layout.named("vkCreatePipelineLayout")?);
+        let pipeline_layout = pipeline_layout(&logical, &[set_layout.get()])?;
         // SAFETY: as above.
         let cache = unsafe { device.create_pipeline_cache(&vk::PipelineCacheCreateInfo::default(), None) };
         let cache = Owned::new(&logical, cache.named("vkCreatePipelineCache")?);
@@ -122,6 +116,9 @@ impl Engine {
             },
             staging: options.force_staging || !adapter.facts.unified_memory,
             poison: options.poison_outputs,
+            texel_width: adapter
+                .texel_width
+                .map(|widest| if options.half_images { TexelWidth::Half } else { widest }),
         }))
     }
 
@@ -135,6 +132,16 @@ impl Engine {
 
     pub(super) fn pipeline_layout(&self) -> vk::PipelineLayout {
         self.pipeline_layout.get()
+    }
+
+    /// The layout of the columns' descriptor set.
+    pub(super) fn set_layout(&self) -> vk::DescriptorSetLayout {
+        self.set_layout.get()
+    }
+
+    /// How wide texels of sampled tables are; `None`: none can be filtered.
+    pub(super) fn texel_width(&self) -> Option<TexelWidth> {
+        self.texel_width
     }
 
     pub(super) fn pipeline_cache(&self) -> vk::PipelineCache {
@@ -173,6 +180,20 @@ impl Engine {
             }
         }
     }
+}
+
+/// The layout of pipelines that take a [`Range`] and use these descriptor sets.
+pub(super) fn pipeline_layout(
+    logical: &Arc<Logical>,
+    sets: &[vk::DescriptorSetLayout],
+) -> Result<Owned<vk::PipelineLayout>, Error> {
+    let constants = [vk::PushConstantRange::default()
+        .stage_flags(vk::ShaderStageFlags::COMPUTE)
+        .size(size_of::<Range>() as u32)];
+    let create = vk::PipelineLayoutCreateInfo::default().set_layouts(sets).push_constant_ranges(&constants);
+    // SAFETY: a live device, layouts of it, and a filled-in description.
+    let layout = unsafe { logical.device.create_pipeline_layout(&create, None) };
+    Ok(Owned::new(logical, layout.named("vkCreatePipelineLayout")?))
 }
 
 #[cfg(test)]

@@ -32,15 +32,22 @@ pub(super) struct Loaded {
     _entry: ash::Entry,
 }
 
+/// Names another library than the system's Vulkan loader: a portability layer, or one under test.
+const LOADER: &str = "ROOTQ_VULKAN_LOADER";
+
 impl Instance {
     /// Opens the Vulkan loader, under the Khronos validation layer if `validation`.
     ///
     /// [`Error::NoLoader`] without a loader of Vulkan 1.1 or later, [`Error::NoValidationLayer`] without the
     /// layer, [`Error::NoDevice`] where the loader finds no driver at all.
     pub fn open(validation: bool) -> Result<Self, Error> {
-        // SAFETY: the system's Vulkan loader, whose initialisers are its own affair.
-        let entry =
-            unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader { reason: error.to_string() })?;
+        let loaded = match std::env::var_os(LOADER) {
+            // SAFETY: the library that the user names as the Vulkan loader, whose initialisers are its own affair.
+            Some(path) => unsafe { ash::Entry::load_from(path) },
+            // SAFETY: the system's Vulkan loader, likewise.
+            None => unsafe { ash::Entry::load() },
+        };
+        let entry = loaded.map_err(|error| Error::NoLoader { reason: error.to_string() })?;
         // SAFETY: `entry` is a loaded Vulkan library.
         let loader = unsafe { entry.try_enumerate_instance_version() }
             .named("vkEnumerateInstanceVersion")?

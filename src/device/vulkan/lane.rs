@@ -7,10 +7,11 @@ use std::sync::Arc;
 use ash::vk;
 
 use super::call::Named;
+use super::image::WHOLE;
 use super::logical::Logical;
 use super::owned::Owned;
 use super::program::Compiled;
-use crate::catalog::kernel::{INPUTS_BINDING, LOCAL_SIZE, OUTPUTS_BINDING, Range};
+use crate::catalog::kernel::{COLUMNS_SET, INPUTS_BINDING, LOCAL_SIZE, OUTPUTS_BINDING, Range, TABLES_SET};
 use crate::device::Error;
 
 /// A buffer and how much of it is in use.
@@ -159,10 +160,20 @@ impl Lane {
                 commands,
                 vk::PipelineBindPoint::COMPUTE,
                 layout,
-                0,
+                COLUMNS_SET,
                 &[self.set],
                 &[],
             );
+            if let Some(tables) = &compiled.tables {
+                device.cmd_bind_descriptor_sets(
+                    commands,
+                    vk::PipelineBindPoint::COMPUTE,
+                    layout,
+                    TABLES_SET,
+                    &[tables.set],
+                    &[],
+                );
+            }
             device.cmd_push_constants(commands, layout, vk::ShaderStageFlags::COMPUTE, 0, &range.bytes());
             self.barrier(commands);
             // At the bottom of the pipe: a stamp at the top may be taken while earlier work is still
@@ -194,6 +205,49 @@ impl Lane {
             self.barrier(commands);
             self.logical.device.cmd_copy_buffer(commands, from.buffer, to, &region);
             self.barrier(commands);
+        }
+        self.end(commands)
+    }
+
+    /// Records a copy of tightly packed texels from the beginning of `from` to the whole of a new image, which it
+    /// leaves ready for sampling.
+    pub(super) fn record_image_copy(
+        &mut self,
+        from: vk::Buffer,
+        to: vk::Image,
+        width: u32,
+        height: u32,
+    ) -> Result<vk::CommandBuffer, Error> {
+        use vk::{AccessFlags as A, ImageLayout as L};
+        let commands = self.begin()?;
+        let layer = vk::ImageSubresourceLayers {
+            aspect_mask: WHOLE.aspect_mask,
+            mip_level: 0,
+            base_array_layer: 0,
+            layer_count: 1,
+        };
+        let region = [vk::BufferImageCopy::default().image_subresource(layer).image_extent(vk::Extent3D {
+            width,
+            height,
+            depth: 1,
+        })];
+        // SAFETY: the command buffer is recording; the buffer has all texels, and both stay with the submission.
+        unsafe {
+            self.barrier(commands);
+            self.transition(
+                commands,
+                to,
+                (L::UNDEFINED, A::empty()),
+                (L::TRANSFER_DST_OPTIMAL, A::TRANSFER_WRITE),
+            );
+            let copied = L::TRANSFER_DST_OPTIMAL;
+            self.logical.device.cmd_copy_buffer_to_image(commands, from, to, copied, &region);
+            self.transition(
+                commands,
+                to,
+                (copied, A::TRANSFER_WRITE),
+                (L::SHADER_READ_ONLY_OPTIMAL, A::SHADER_READ),
+            );
         }
         self.end(commands)
     }
@@ -256,6 +310,42 @@ impl Lane {
                 &memory,
                 &[],
                 &[],
+            );
+        }
+    }
+
+    /// Takes an image from one layout and access to another, everything before to everything after.
+    ///
+    /// # Safety
+    ///
+    /// `commands` is recording, and `image` is in the first layout when they run.
+    unsafe fn transition(
+        &self,
+        commands: vk::CommandBuffer,
+        image: vk::Image,
+        from: (vk::ImageLayout, vk::AccessFlags),
+        to: (vk::ImageLayout, vk::AccessFlags),
+    ) {
+        let barrier = [vk::ImageMemoryBarrier::default()
+            .old_layout(from.0)
+            .src_access_mask(from.1)
+            .new_layout(to.0)
+            .dst_access_mask(to.1)
+            .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .image(image)
+            .subresource_range(WHOLE)];
+        let stages = vk::PipelineStageFlags::ALL_COMMANDS;
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.logical.device.cmd_pipeline_barrier(
+                commands,
+                stages,
+                stages,
+                vk::DependencyFlags::empty(),
+                &[],
+                &[],
+                &barrier,
             );
         }
     }

@@ -57,8 +57,8 @@ impl Role {
 /// The device's allocator.
 pub(super) struct Memory {
     /// First, so that memory is freed before the device goes.
-    allocator: Mutex<Allocator>,
-    logical: Arc<Logical>,
+    pub(super) allocator: Mutex<Allocator>,
+    pub(super) logical: Arc<Logical>,
 }
 
 impl Memory {

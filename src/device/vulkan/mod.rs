@@ -7,13 +7,13 @@
 //! Loaded (instance, messenger) <- Logical (device) <- Memory <- Buffer <- Pool <- Engine
 //!                                        ^----- Owned<handle> <- Lane <-------------'
 //! Engine <- VulkanDevice, and Flight <- Pending, Inputs
-//! Owned<pipeline> <- Program
+//! Owned<pipeline>, Tables <- Program
 //! ```
 //!
 //! Everything here is `Send` and `Sync` by its parts. What Vulkan wants synchronised from outside is covered
 //! so: the queue is behind a mutex; a lane's command pool, descriptor pool, query pool and fence belong to
 //! one submission at a time, which owns the lane by value; memory is allocated and freed behind a mutex;
-//! pipelines, layouts and buffers do not change after their creation.
+//! pipelines, layouts, buffers and tables do not change after their creation.
 #![allow(unsafe_code, reason = "Vulkan is a C interface; this module is its only safe face")]
 
 mod adapter;
@@ -22,6 +22,7 @@ mod capability;
 mod columns;
 mod engine;
 mod flight;
+mod image;
 mod instance;
 mod lane;
 mod logical;
@@ -33,6 +34,8 @@ mod pool;
 mod program;
 mod select;
 mod submission;
+mod tables;
+mod texel;
 mod vulkan_device;
 
 pub use columns::{Inputs, OutputColumns};

@@ -32,10 +32,12 @@ handles! {
     vk::DescriptorPool => destroy_descriptor_pool,
     vk::DescriptorSetLayout => destroy_descriptor_set_layout,
     vk::Fence => destroy_fence,
+    vk::ImageView => destroy_image_view,
     vk::Pipeline => destroy_pipeline,
     vk::PipelineCache => destroy_pipeline_cache,
     vk::PipelineLayout => destroy_pipeline_layout,
     vk::QueryPool => destroy_query_pool,
+    vk::Sampler => destroy_sampler,
     vk::ShaderModule => destroy_shader_module,
 }
 

@@ -48,6 +48,11 @@ impl Pool {
         })
     }
 
+    /// The memory that buffers come from.
+    pub(super) fn memory(&self) -> &Arc<Memory> {
+        &self.memory
+    }
+
     pub(super) fn usage(&self) -> Usage {
         Usage {
             created: self.created.load(Ordering::Relaxed),

@@ -8,6 +8,7 @@ use super::call::Named;
 use super::engine::Engine;
 use super::owned::Owned;
 use super::pace::Pace;
+use super::tables::Tables;
 use crate::catalog::Kernel;
 use crate::device::Error;
 
@@ -25,11 +26,23 @@ pub(super) struct Compiled {
     pub(super) id: String,
     pub(super) inputs: usize,
     pub(super) outputs: usize,
+    pub(super) tables: Option<Tables>,
     pub(super) pace: Pace,
 }
 
+impl Compiled {
+    /// The layout that the pipeline was made with.
+    pub(super) fn layout(&self, engine: &Engine) -> vk::PipelineLayout {
+        layout(self.tables.as_ref(), engine)
+    }
+}
+
+fn layout(tables: Option<&Tables>, engine: &Engine) -> vk::PipelineLayout {
+    tables.map_or_else(|| engine.pipeline_layout(), |tables| tables.pipeline_layout.get())
+}
+
 impl Program {
-    pub(super) fn new(engine: &Engine, kernel: &Kernel) -> Result<Self, Error> {
+    pub(super) fn new(engine: &Arc<Engine>, kernel: &Kernel) -> Result<Self, Error> {
         let invalid =
             |reason: &str| Error::InvalidKernel { kernel: kernel.id.clone(), reason: reason.to_owned() };
         if kernel.inputs == 0 || kernel.outputs == 0 {
@@ -38,6 +51,7 @@ impl Program {
         if let Some(what) = engine.abilities().missing(&kernel.spirv).map_err(invalid)? {
             return Err(Error::NotSupported { kernel: kernel.id.clone(), what });
         }
+        let tables = Tables::new(engine, kernel)?;
         let logical = engine.logical();
         let device = &logical.device;
         let create = vk::ShaderModuleCreateInfo::default().code(&kernel.spirv);
@@ -49,7 +63,8 @@ impl Program {
             .stage(vk::ShaderStageFlags::COMPUTE)
             .module(module.get())
             .name(c"main");
-        let create = vk::ComputePipelineCreateInfo::default().stage(stage).layout(engine.pipeline_layout());
+        let layout = layout(tables.as_ref(), engine);
+        let create = vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout);
         // SAFETY: module and layout are this device's and alive; the cache is synchronised by the driver.
         let made = unsafe { device.create_compute_pipelines(engine.pipeline_cache(), &[create], None) };
         let pipeline = match made {
@@ -65,6 +80,7 @@ impl Program {
                 id: kernel.id.clone(),
                 inputs: kernel.inputs,
                 outputs: kernel.outputs,
+                tables,
                 pace: Pace::new(),
             }),
         })

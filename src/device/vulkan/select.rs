@@ -78,6 +78,7 @@ mod tests {
             unified_memory: true,
             timestamp_period: 1.0,
             timestamp_bits: 64,
+            table_image_bits: 32,
             validation: false,
         }
     }

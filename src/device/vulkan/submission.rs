@@ -152,7 +152,7 @@ impl Pending {
             let range = Range { first, count, stride: self.rows };
             let commands = flight.lane().record_dispatch(
                 &program.compiled,
-                self.engine.pipeline_layout(),
+                program.compiled.layout(&self.engine),
                 range,
                 pairs.next(),
             )?;
@@ -167,7 +167,7 @@ impl Pending {
             return Ok(0.0);
         };
         let range = Range { first, count, stride: self.rows };
-        let layout = self.engine.pipeline_layout();
+        let layout = self.program.compiled.layout(&self.engine);
         let ns = match self.engine.stopwatch.clock {
             Clock::HostFence => {
                 let commands = flight.lane().record_dispatch(&self.program.compiled, layout, range, None)?;

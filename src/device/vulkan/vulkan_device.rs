@@ -8,6 +8,7 @@ use super::instance::Instance;
 use super::pool::Usage;
 use super::program::Program;
 use super::submission::Pending;
+use super::texel::TexelWidth;
 use crate::catalog::Kernel;
 use crate::device::{Device, Error, Facts};
 
@@ -20,6 +21,8 @@ pub struct Options {
     pub ignore_timestamps: bool,
     /// Fill outputs with a NaN before each evaluation, so that a row that no kernel wrote shows.
     pub poison_outputs: bool,
+    /// Upload sampled tables as 16-bit floats, also where the device filters 32-bit ones.
+    pub half_images: bool,
 }
 
 /// An open Vulkan device.
@@ -51,6 +54,7 @@ impl VulkanDevice {
         let engine = Engine::open(instance.loaded(), &adapter, options)?;
         let mut facts = adapter.facts;
         facts.unified_memory = !engine.staging;
+        facts.table_image_bits = engine.texel_width().map_or(0, TexelWidth::bits);
         Ok(Self { facts, engine })
     }
 

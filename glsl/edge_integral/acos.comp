@@ -1,0 +1,57 @@
+/*---
+summary = "Angle by acos of the dot product, over its sine"
+source  = "Heitz et al., Real-Time Polygonal-Light Shading with Linearly Transformed Cosines, 2016, and public ports of its sample code"
+
+[[variant]]
+name = "acos"
+defines = { EDGE = "edge_acos" }
+
+[[variant]]
+name = "acos_precise"
+defines = { EDGE = "edge_acos" }
+precise = true
+
+[[variant]]
+name = "acos_clamped"
+summary = "The dot product clamped to +-0.9999, as in the authors' first sample code"
+defines = { EDGE = "edge_acos_clamped" }
+
+[[variant]]
+name = "acos_saturated"
+summary = "The dot product clamped to +-1"
+defines = { EDGE = "edge_acos_saturated" }
+
+[[variant]]
+name = "acos_small_angle"
+summary = "The dot product clamped to +-1, and theta/sin(theta) = 1 below 0.001"
+defines = { EDGE = "edge_acos_small_angle" }
+
+[[variant]]
+name = "acos_split"
+summary = "acos_small_angle, with nearly opposite vectors split at the chord's closest point"
+defines = { EDGE = "edge_acos_small_angle", SPLIT = 1 }
+
+[[variant]]
+name = "acos_normalized"
+summary = "The cross product normalised, times acos: rings around lights"
+defines = { EDGE = "edge_acos_normalized" }
+
+[[variant]]
+name = "acos_normalized_saturated"
+summary = "The cross product normalised, times acos of the dot product clamped to +-1"
+defines = { EDGE = "edge_acos_normalized_saturated" }
+---*/
+
+// theta = acos(a.b), edge = theta/(2 pi sin theta) a x b, in the forms of glsl/common/edge_acos.glsl.
+//
+// Domain: unit vectors, neither parallel nor opposite.
+// Bound: theta is off by 2^-24/sin(theta), so theta/sin(theta) by 2^-24/sin(theta)^2: 1e-4 of the result is lost below
+// theta = 0.02 (where the cross product makes it small), and within 0.02 of pi (where nothing does).
+// Measured: -
+
+#include "common/edge_any.glsl"
+
+vec3 edge_integral(vec3 a, vec3 b)
+{
+    return edge_any(a, b);
+}

@@ -1,0 +1,56 @@
+/*---
+summary = "Clipping to the surface in the shading frame, before Minv; nothing after it"
+source  = "Public ports of the 2016 code; edges as in glsl/common/edge_*.glsl"
+
+[[variant]]
+name = "before_acos"
+summary = "Clipping in the shading frame, then Minv, normalising; edges by acos and its small-angle test"
+defines = { EDGE = "edge_acos_small_angle" }
+
+[[variant]]
+name = "before_rational_1e7"
+summary = "Clipping in the shading frame, then Minv, normalising; edges by the rational fit, max(1 - x^2, 1e-7)"
+defines = { EDGE = "edge_fit", FIT = "fit_rational", GUARD = "guard_1e7", FIT_SCALED = 1 }
+
+[[variant]]
+name = "before_stable"
+summary = "Clipping in the shading frame, then Minv, normalising; edges by the cross product that does not cancel"
+defines = { EDGE = "edge_stable" }
+---*/
+
+// Clip the light itself to the surface's half space, then transform and sum. Minv does not keep the plane z = 0 unless
+// its third row is (0, 0, 1): the transformed lobe has a horizon of its own, and light below that counts negative here.
+//
+// Domain: as of `cases`. An approximation: exact where Minv keeps the horizon or the light clears both.
+// Bound: none; the lobe's share between the two horizons, small for smooth and for upright lobes.
+// Measured: -
+
+#include "common/edge_any.glsl"
+
+float ltc_polygon(mat3 minv, vec3 p0, vec3 p1, vec3 p2, vec3 p3)
+{
+    vec3 p[4] = vec3[4](p0, p1, p2, p3);
+    vec3 clipped[8];
+    int count = 0;
+    for (int i = 0; i < 4; ++i) {
+        vec3 a = p[i];
+        vec3 b = p[(i + 1) & 3];
+        if (a.z > 0.0) {
+            clipped[count++] = a;
+        }
+        if ((a.z > 0.0) != (b.z > 0.0)) {
+            clipped[count++] = a + a.z / (a.z - b.z) * (b - a);
+        }
+    }
+    if (count == 0) {
+        return 0.0;
+    }
+    vec3 last = normalize(minv * clipped[count - 1]);
+    float sum = 0.0;
+    for (int i = 0; i < count; ++i) {
+        vec3 next = normalize(minv * clipped[i]);
+        sum += edge_any(last, next).z;
+        last = next;
+    }
+    return abs(sum);
+}

@@ -1,0 +1,218 @@
+//! Irradiance of a quad under a linearly transformed cosine: the light's corners times Minv, clipped to z > 0.
+//!
+//! The light is its contour p0 p1 p2 p3, planar up to rounding, and emits on both sides: the truth is the absolute value
+//! of the sum over the edges of the clipped contour (`numeric::polygon_irradiance`). It is 0 below the horizon, for a
+//! quad without area and for one seen edge-on. Where the point lies exactly on the light - in its plane and within it,
+//! on an edge or at a corner - the limit depends on the side, so the inputs do not define a value.
+//!
+//! The corners are sums of three exact products, rounded once. f64 then does unless the edges' contributions cancel:
+//! lights of a millionth of the hemisphere and less that are near or thin, and points very close to an edge or, within
+//! the light's outline, to its plane. Those are summed in double-double. What is left is flat contours through the origin,
+//! which are told by their exact determinants.
+
+use glam::DVec3;
+
+use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
+use crate::catalog::{Field, Type};
+use crate::numeric::double_double::{DoubleDouble, Real};
+use crate::numeric::exact;
+use crate::numeric::polygon_irradiance::{Irradiance, irradiance};
+use crate::numeric::spacing::f32_spacing;
+
+mod scenarios;
+
+pub(super) struct LtcPolygon;
+
+/// Columns of Minv and of the corners among the inputs.
+const MINV: usize = 0;
+const CORNERS: usize = 9;
+
+/// The relative error that more precision is taken for: 1.5e-11, well beyond what certifying an f32 takes.
+const ACCURACY: f64 = 1.0 / (1u64 << 36) as f64;
+/// Below this irradiance the error is absolute.
+const FLOOR: f64 = 1.0 / (1u64 << 52) as f64;
+
+impl Problem for LtcPolygon {
+    fn name(&self) -> &'static str {
+        "ltc_polygon"
+    }
+
+    fn summary(&self) -> &'static str {
+        "Irradiance of a quad light under a linearly transformed cosine, clipped to the horizon"
+    }
+
+    fn inputs(&self) -> &'static [Field] {
+        const {
+            &[
+                Field::new("minv", Type::Mat3),
+                Field::new("p0", Type::Vec3),
+                Field::new("p1", Type::Vec3),
+                Field::new("p2", Type::Vec3),
+                Field::new("p3", Type::Vec3),
+            ]
+        }
+    }
+
+    /// 1e-4 of the hemisphere's irradiance is a tenth of a step of 10 bits at white.
+    fn outputs(&self) -> &'static [Output] {
+        const { &[Output::new("irradiance", Type::Float, Quantity::Irradiance, 1e-4).headline()] }
+    }
+
+    fn scenarios(&self) -> &'static [Scenario] {
+        scenarios::ALL
+    }
+
+    fn landmarks(&self) -> &'static [Landmark] {
+        &[
+            Landmark {
+                name: "distance",
+                summary: "distance of the light's centre over its longer diagonal; small: the light is all around",
+                edges: &[0.01, 0.1, 0.5, 1.0, 2.0, 5.0, 10.0, 100.0, 1e3, 1e4],
+                coordinate: |input, _| {
+                    let [a, b, c, d] = lights(input);
+                    (0.25 * (a + b + c + d)).length() / (c - a).length().max((d - b).length())
+                },
+            },
+            Landmark {
+                name: "height",
+                summary: "height of the point over the light's plane, over the light's longer diagonal; at 0 it touches",
+                edges: &[1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0],
+                coordinate: |input, _| {
+                    let [a, b, c, d] = lights(input);
+                    let (x, y) = (c - a, d - b);
+                    let normal = x.cross(y);
+                    (a.dot(normal) / normal.length()).abs() / x.length().max(y.length())
+                },
+            },
+            Landmark {
+                name: "elevation",
+                summary: "sine of the elevation of the transformed light's centre; at 0 the horizon cuts it",
+                edges: &[-0.5, -0.1, -0.01, 0.0, 0.01, 0.1, 0.5, 0.9],
+                coordinate: |input, _| {
+                    let [a, b, c, d] = transformed_f64(input).map(DVec3::from_array);
+                    let centre = a + b + c + d;
+                    centre.z / centre.length()
+                },
+            },
+        ]
+    }
+
+    fn oracle(&self, input: &[f32], truth: &mut Truth) {
+        let mut found = shaded(transformed_f64(input));
+        let certain =
+            |found: &Irradiance<4>| !found.touched && found.bound <= ACCURACY * found.value.abs().max(FLOOR);
+        if !certain(&found) {
+            truth.escalate();
+            found = shaded(transformed(input));
+        }
+        if (!certain(&found) || found.value.abs() < FLOOR) && flat(input) {
+            // All edges lie in one plane with the origin. Outside the outline their angles cancel.
+            found.touched |= found.value.abs() > 1e-9 || found.bound >= 1.0;
+            found.value = 0.0;
+            found.bound = 0.0;
+        }
+        if found.touched {
+            truth.scalar(0, found.value.abs(), 0.0, f64::INFINITY);
+            return;
+        }
+        let value = found.value.abs();
+        // The floor's bound is told in the value's own spacing, as certification counts it.
+        let bound = found.bound * (f32_spacing(value) / f32_spacing(value.max(FLOOR)));
+        truth.scalar(0, value, bound, sensitivity(input, &found.gradient));
+    }
+}
+
+/// The irradiance of transformed corners, its bound widened by that of the corners: one rounding of each component.
+fn shaded<T: Real>(corners: [[T; 3]; 4]) -> Irradiance<4> {
+    // By a power of two, exactly: no square leaves f64's range.
+    let largest = corners
+        .iter()
+        .flatten()
+        .fold(0.0f64, |largest, c| largest.max(c.to_f64().abs()))
+        .clamp(1e-200, 1e200);
+    let scale = T::from(libm::exp2(-libm::floor(libm::log2(largest))));
+    let corners = corners.map(|corner| corner.map(|c| c * scale));
+    let mut found = irradiance(&corners);
+    for (corner, gradient) in corners.iter().zip(&mut found.gradient) {
+        for (component, slope) in corner.iter().zip(gradient.to_array()) {
+            found.bound += 2.0 * T::ROUNDOFF * (component.to_f64() * slope).abs();
+        }
+        *gradient *= scale.to_f64();
+    }
+    found
+}
+
+/// The change of the irradiance when every component of Minv and of the corners changes by its own magnitude.
+fn sensitivity(input: &[f32], gradient: &[DVec3; 4]) -> f64 {
+    let minv: [DVec3; 3] = core::array::from_fn(|column| vector(input, MINV + 3 * column));
+    let corners = lights(input);
+    let mut change = 0.0;
+    for (column, entries) in minv.iter().enumerate() {
+        let slope: DVec3 = corners.iter().zip(gradient).map(|(p, g)| *g * p[column]).sum();
+        change += slope.abs().dot(entries.abs());
+        change += corners.iter().zip(gradient).map(|(p, g)| (entries.dot(*g) * p[column]).abs()).sum::<f64>();
+    }
+    change
+}
+
+fn vector(input: &[f32], first: usize) -> DVec3 {
+    DVec3::new(f64::from(input[first]), f64::from(input[first + 1]), f64::from(input[first + 2]))
+}
+
+fn lights(input: &[f32]) -> [DVec3; 4] {
+    core::array::from_fn(|corner| vector(input, CORNERS + 3 * corner))
+}
+
+/// The three exact products whose sum is component `row` of Minv p.
+fn products(input: &[f32], corner: usize, row: usize) -> [f64; 3] {
+    let p = CORNERS + 3 * corner;
+    core::array::from_fn(|column| f64::from(input[MINV + 3 * column + row]) * f64::from(input[p + column]))
+}
+
+/// Minv times the corners, each component rounded once or almost: within 2^-53 of itself and 2^-104 of its terms.
+fn transformed_f64(input: &[f32]) -> [[f64; 3]; 4] {
+    core::array::from_fn(|corner| {
+        core::array::from_fn(|row| {
+            let terms = products(input, corner, row);
+            let [a, b, c] = terms;
+            let (ab, ab_error) = exact::two_sum(a, b);
+            let (sum, error) = exact::two_sum(ab, c);
+            let total = sum + (ab_error + error);
+            // Signs decide what the horizon clips, and exact zeros stay zeros.
+            if total.abs() > 1e-12 * (a.abs() + b.abs() + c.abs()) { total } else { exact::sum(&terms) }
+        })
+    })
+}
+
+/// Minv times the corners within 2^-105 of each component.
+fn transformed(input: &[f32]) -> [[DoubleDouble; 3]; 4] {
+    core::array::from_fn(|corner| {
+        core::array::from_fn(|row| {
+            let [a, b, c] = products(input, corner, row);
+            let high = exact::sum(&[a, b, c]);
+            DoubleDouble::new(high, exact::sum(&[a, b, c, -high]))
+        })
+    })
+}
+
+/// Whether the transformed corners lie in one plane with the origin, exactly.
+fn flat(input: &[f32]) -> bool {
+    let corners = lights(input);
+    let minv: [DVec3; 3] = core::array::from_fn(|column| vector(input, MINV + 3 * column));
+    let flat = |a: DVec3, b: DVec3, c: DVec3| {
+        let positive = [[a.x, b.y, c.z], [a.y, b.z, c.x], [a.z, b.x, c.y]];
+        let negative = [[-a.z, b.y, c.x], [-a.y, b.x, c.z], [-a.x, b.z, c.y]];
+        let mut terms = [0.0; 12];
+        for (pair, [x, y, z]) in terms.chunks_exact_mut(2).zip(positive.into_iter().chain(negative)) {
+            // The product of two f32 is exact, and of three the sum of a rounded one and its error.
+            let high = x * y * z;
+            pair.copy_from_slice(&[high, (x * y).mul_add(z, -high)]);
+        }
+        exact::sum(&terms) == 0.0
+    };
+    let [a, b, c, d] = corners;
+    flat(minv[0], minv[1], minv[2]) || (flat(a, b, c) && flat(a, b, d) && flat(a, c, d) && flat(b, c, d))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,303 @@
+//! Every variant on every driver under the validation layer, one named test each; then what must hold of some of them:
+//! the controls are caught, and symmetries of the problem are symmetries of the shaders.
+#![allow(unsafe_code, reason = "one environment variable is set before any thread starts")]
+
+mod drivers;
+
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex};
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use rootq::audit::{self, Audited, MAX_CHUNK, Plan, Verdict};
+use rootq::catalog::{Catalog, Variant};
+use rootq::device::vulkan::{Instance, Options, VulkanDevice};
+use rootq::device::{Device, Outputs};
+use rootq::family::{Problem, find};
+
+/// Configurations a scenario: enough that a rate of 0.1 % is seen with certainty.
+const CONFIGURATIONS: u64 = 20_000;
+
+/// One driver's device. Tests take turns on it, so that a validation message has one possible author.
+struct Rig {
+    name: &'static str,
+    instance: Instance,
+    device: Mutex<VulkanDevice>,
+}
+
+fn main() {
+    let arguments = Arguments::from_args();
+    let trials = match rigs() {
+        Ok(rigs) => trials(&rigs),
+        // A missing driver is an error of this test, told by a test that fails.
+        Err(message) => vec![Trial::test("both drivers are there", move || Err(Failed::from(message)))],
+    };
+    libtest_mimic::run(&arguments, trials).exit();
+}
+
+fn rigs() -> Result<Vec<Arc<Rig>>, String> {
+    let both = drivers::both()?;
+    // SAFETY: no other thread has been started.
+    unsafe { std::env::set_var("VK_DRIVER_FILES", both) };
+    ["llvmpipe", "SwiftShader"]
+        .into_iter()
+        .map(|name| {
+            let instance = Instance::open(true).map_err(|error| error.to_string())?;
+            let index = instance.choose(Some(name)).map_err(|error| error.to_string())?;
+            // Poisoned outputs: a row that a kernel does not write is NaN, and not what an earlier one left there.
+            let options = Options { poison_outputs: true, ..Options::default() };
+            let device =
+                VulkanDevice::open_with(&instance, index, options).map_err(|error| error.to_string())?;
+            Ok(Arc::new(Rig { name, instance, device: Mutex::new(device) }))
+        })
+        .collect()
+}
+
+fn trials(rigs: &[Arc<Rig>]) -> Vec<Trial> {
+    let catalog = Catalog::embedded().expect("the catalogue");
+    let mut trials = Vec::new();
+    for rig in rigs {
+        for variant in catalog.variants() {
+            let (rig, variant) = (Arc::clone(rig), variant.clone());
+            let name = format!("{}: {}", rig.name, variant.id());
+            trials.push(Trial::test(name, move || Ok(runs_cleanly(&rig, &variant)?)));
+        }
+        for (name, claim) in CLAIMS {
+            let (rig, catalog) = (Arc::clone(rig), catalog.clone());
+            trials.push(Trial::test(format!("{}: {name}", rig.name), move || Ok(claim(&rig, &catalog)?)));
+        }
+    }
+    trials
+}
+
+/// Compiles, evaluates every scenario, says nothing under validation, and gives the same bits from other chunks.
+fn runs_cleanly(rig: &Rig, variant: &Variant) -> Result<(), String> {
+    let problem = find(&variant.family).ok_or("no such family")?;
+    for scenario in problem.scenarios() {
+        let whole = audit_of(rig, variant, scenario.name, MAX_CHUNK)?;
+        let parts = audit_of(rig, variant, scenario.name, 7_001)?;
+        let (whole, parts) = (&whole.summaries[0], &parts.summaries[0]);
+        expect(whole.configurations == CONFIGURATIONS, || {
+            format!("{} configurations", whole.configurations)
+        })?;
+        expect(whole.verdicts == parts.verdicts, || format!("{}: chunks change verdicts", scenario.name))?;
+        for (one, other) in whole.outputs.iter().zip(&parts.outputs) {
+            let same = one.worst == other.worst && one.error == other.error && one.ulp == other.ulp;
+            expect(same, || format!("{}: chunks change errors", scenario.name))?;
+        }
+        let kept = |summary: &audit::Summary| -> Vec<u64> {
+            summary.failures.sorted().iter().map(|failure| failure.index).collect()
+        };
+        expect(kept(whole) == kept(parts), || format!("{}: chunks change kept failures", scenario.name))?;
+    }
+    let messages = rig.instance.validation_messages();
+    expect(messages.is_empty(), || format!("validation: {messages:?}"))
+}
+
+fn expect(condition: bool, message: impl FnOnce() -> String) -> Result<(), String> {
+    if condition { Ok(()) } else { Err(message()) }
+}
+
+fn audit_of(rig: &Rig, variant: &Variant, scenario: &str, chunk: usize) -> Result<Audited, String> {
+    let problem = find(&variant.family).ok_or("no such family")?;
+    let scenario = problem.scenario(scenario).ok_or_else(|| format!("no scenario {scenario}"))?;
+    let kernel = variant.compile(&problem.signature(), false).map_err(|error| error.to_string())?.kernel;
+    let device = rig.device.lock().map_err(|_| "an earlier test failed on this device")?;
+    let program = device.program(&kernel).map_err(|error| error.to_string())?;
+    let plan = Plan { problem, scenario, seed: 3, configurations: CONFIGURATIONS, chunk, max_failures: 8 };
+    audit::audit(&*device, &[program], &plan, &|_| {}, &AtomicBool::new(false))
+        .map_err(|error| error.to_string())
+}
+
+/// Output columns of `variant` for row-major `inputs`.
+fn evaluate(rig: &Rig, variant: &Variant, inputs: &[f32]) -> Result<Vec<Vec<f32>>, String> {
+    let problem = find(&variant.family).ok_or("no such family")?;
+    let signature = problem.signature();
+    let kernel = variant.compile(&signature, false).map_err(|error| error.to_string())?.kernel;
+    let device = rig.device.lock().map_err(|_| "an earlier test failed on this device")?;
+    let run = || {
+        let program = device.program(&kernel)?;
+        let inputs = device.upload(inputs, signature.input_columns().len())?;
+        let outputs = device.wait(device.submit(&program, &inputs)?)?;
+        Ok::<_, rootq::device::Error>(
+            (0..kernel.outputs).map(|column| outputs.column(column).to_vec()).collect(),
+        )
+    };
+    run().map_err(|error| error.to_string())
+}
+
+fn variant(catalog: &Catalog, id: &str) -> Result<Variant, String> {
+    catalog
+        .variants()
+        .iter()
+        .find(|variant| variant.id() == id)
+        .cloned()
+        .ok_or_else(|| format!("no variant {id}"))
+}
+
+fn inputs(problem: &dyn Problem, scenario: &str, rows: usize) -> Vec<f32> {
+    let scenario = problem.scenario(scenario).expect("a scenario");
+    audit::Chunk::draw(problem, scenario, 5, 0, rows).inputs().to_vec()
+}
+
+type Claim = fn(&Rig, &Catalog) -> Result<(), String>;
+
+/// What must hold of particular variants, each on both drivers.
+const CLAIMS: &[(&str, Claim)] = &[
+    ("controls are caught", controls_are_caught),
+    ("the area forms survive every aspect", area_forms_survive),
+    ("an unfused fma() helps nothing", fma_is_not_fused),
+    ("swapping the semi-axes changes nothing", swap),
+    ("a quarter turn turns the axes", quarter_turn),
+    ("a power-of-two scale scales lengths exactly", scale),
+    ("the horizon's closed form, tables and fits keep their bounds", horizon_bounds),
+];
+
+/// `as_printed` and `naive` must fail for at least a tenth of `aspect`, or the harness is broken.
+fn controls_are_caught(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    for name in ["as_printed", "as_printed_precise", "naive", "naive_precise"] {
+        let audited =
+            audit_of(rig, &variant(catalog, &format!("ellipse_axes/{name}"))?, "aspect", MAX_CHUNK)?;
+        let failed = audited.summaries[0].failed();
+        expect(failed > CONFIGURATIONS / 10, || format!("{name} failed only {failed} of {CONFIGURATIONS}"))?;
+    }
+    Ok(())
+}
+
+/// No failure by the variant's fault, and error-free products keep the minor length within 8 ULP.
+fn area_forms_survive(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    for name in ["cross", "cross_dekker", "cross_mask"] {
+        for scenario in ["scene", "aspect", "near_circle"] {
+            let audited =
+                audit_of(rig, &variant(catalog, &format!("ellipse_axes/{name}"))?, scenario, MAX_CHUNK)?;
+            let summary = &audited.summaries[0];
+            expect(summary.failed() == 0, || {
+                format!("{name} on {scenario}: {:?}", summary.failures.sorted().first())
+            })?;
+            expect(summary.count(Verdict::NonFinite) == 0, || format!("{name} on {scenario}: not finite"))?;
+            let ulp = summary.outputs.last().map_or(f64::INFINITY, |minor_len| minor_len.worst.ulp);
+            expect(name == "cross" || ulp <= 8.0, || format!("{name} on {scenario}: {ulp} ULP"))?;
+        }
+    }
+    Ok(())
+}
+
+/// Neither software driver fuses `fma()`, so the compensation of `cross_fma` is lost: within a tenth of `cross`'s rate.
+fn fma_is_not_fused(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    let beyond = |name: &str| {
+        let audited =
+            audit_of(rig, &variant(catalog, &format!("ellipse_axes/{name}"))?, "aspect", MAX_CHUNK)?;
+        Ok::<_, String>(audited.summaries[0].outputs.last().map_or(0, |minor_len| minor_len.beyond))
+    };
+    let (plain, fma) = (beyond("cross")?, beyond("cross_fma")?);
+    expect(plain > 0 && fma * 10 >= plain * 9, || format!("cross {plain}, cross_fma {fma}"))
+}
+
+/// Columns of `ellipse_axes`'s outputs.
+const MAJOR: usize = 0;
+const MAJOR_LEN: usize = 6;
+const MINOR_LEN: usize = 7;
+
+fn near(a: f32, b: f32, tolerance: f32) -> bool {
+    (a - b).abs() <= tolerance * a.abs().max(b.abs())
+}
+
+/// V1 and V2 in either order are the same ellipse. The variants below choose by length, so only rounding may differ:
+/// 1e-6 is 8 ULP, and `scene`'s minor lengths are conditioned within a hundredfold of that.
+fn swap(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    let problem = find("ellipse_axes").ok_or("no family")?;
+    let rows = inputs(problem, "scene", 4096);
+    let swapped: Vec<f32> =
+        rows.chunks_exact(6).flat_map(|row| [row[3], row[4], row[5], row[0], row[1], row[2]]).collect();
+    for name in ["cross", "cross_dekker", "cross_scaled", "jacobi"] {
+        let variant = variant(catalog, &format!("ellipse_axes/{name}"))?;
+        let (one, other) = (evaluate(rig, &variant, &rows)?, evaluate(rig, &variant, &swapped)?);
+        for (row, ((a, b), (c, d))) in one[MAJOR_LEN]
+            .iter()
+            .zip(&other[MAJOR_LEN])
+            .zip(one[MINOR_LEN].iter().zip(&other[MINOR_LEN]))
+            .enumerate()
+        {
+            expect(near(*a, *b, 1e-6) && near(*c, *d, 1e-4), || {
+                format!("{name}, row {row}: {a} {b}, {c} {d}")
+            })?;
+        }
+    }
+    Ok(())
+}
+
+/// (x, y, z) -> (-y, x, z) is exact in f32, so lengths agree and axes turn with it, up to the order of sums.
+fn quarter_turn(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    let problem = find("ellipse_axes").ok_or("no family")?;
+    let rows = inputs(problem, "scene", 4096);
+    let turned: Vec<f32> =
+        rows.chunks_exact(6).flat_map(|row| [-row[1], row[0], row[2], -row[4], row[3], row[5]]).collect();
+    for name in ["cross", "cross_dekker", "jacobi"] {
+        let variant = variant(catalog, &format!("ellipse_axes/{name}"))?;
+        let (one, other) = (evaluate(rig, &variant, &rows)?, evaluate(rig, &variant, &turned)?);
+        for row in 0..one[0].len() {
+            let (a, b) = (one[MAJOR_LEN][row], other[MAJOR_LEN][row]);
+            expect(near(a, b, 1e-6), || format!("{name}, row {row}: {a} {b}"))?;
+            // Near circles turn freely.
+            if one[MINOR_LEN][row] < 0.9 * a {
+                let axis = |columns: &[Vec<f32>], k: usize| columns[MAJOR + k][row];
+                let dot = -axis(&one, 1) * axis(&other, 0)
+                    + axis(&one, 0) * axis(&other, 1)
+                    + axis(&one, 2) * axis(&other, 2);
+                expect(dot.abs() > 0.999_99, || format!("{name}, row {row}: turned axes differ, {dot}"))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Lengths times 2^k are lengths times 2^k, bit for bit; a form with absolute floors must be caught by the same check.
+fn scale(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    let problem = find("ellipse_axes").ok_or("no family")?;
+    let rows = inputs(problem, "scene", 4096);
+    let changed = |name: &str, exponent: i32| -> Result<usize, String> {
+        let variant = variant(catalog, &format!("ellipse_axes/{name}"))?;
+        let factor = 2f32.powi(exponent);
+        let scaled: Vec<f32> = rows.iter().map(|value| value * factor).collect();
+        let (one, other) = (evaluate(rig, &variant, &rows)?, evaluate(rig, &variant, &scaled)?);
+        let differs = |column: usize, row: usize| {
+            let factor = if column >= MAJOR_LEN { factor } else { 1.0 };
+            (one[column][row] * factor).to_bits() != other[column][row].to_bits()
+        };
+        Ok((0..one[0].len()).filter(|row| (0..one.len()).any(|column| differs(column, *row))).count())
+    };
+    for (name, exponents) in [("cross", [-8, 8]), ("cross_dekker", [-8, 8]), ("cross_scaled", [-60, 60])] {
+        for exponent in exponents {
+            let rows = changed(name, exponent)?;
+            expect(rows == 0, || format!("{name} changes in {rows} rows under 2^{exponent}"))?;
+        }
+    }
+    let caught = changed("sqrtq_floors", -14)?;
+    expect(caught > 0, || "absolute floors of 1e-7 pass a scale of 2^-14: this check sees nothing".to_owned())
+}
+
+/// Absolute errors of `horizon_sphere`: what each form states as its bound holds and is not far from the truth, so that
+/// a table that is shifted by half a texel or not uploaded at all is caught.
+fn horizon_bounds(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    // Scenario, least and most that the worst error of 20 000 may be. The sampler may quantise its weights.
+    let claims = [
+        ("stable", "scene", 0.0, 2e-7),
+        ("stable", "small", 0.0, 1e-11),
+        ("stable", "near_full", 0.0, 3e-7),
+        ("stable", "edge", 0.0, 3e-7),
+        ("lut", "near_full", 0.01, 0.0201),
+        ("lut_sampler", "near_full", 0.01, 0.025),
+        ("lut_solid_angle", "near_full", 1e-4, 1.4e-3),
+        ("lut_solid_angle_sampler", "near_full", 1e-4, 6e-3),
+        ("lut_sampler_edge", "scene", 0.01, 0.1),
+        ("rational", "scene", 0.1, 0.135),
+        ("polynomial", "scene", 0.03, 0.066),
+        ("polynomial_faded", "near_full", 0.08, 0.1),
+    ];
+    for (name, scenario, least, most) in claims {
+        let variant = variant(catalog, &format!("horizon_sphere/{name}"))?;
+        let audited = audit_of(rig, &variant, scenario, MAX_CHUNK)?;
+        let worst = audited.summaries[0].outputs[0].worst.found.map_or(f64::INFINITY, |(error, _)| error);
+        expect((least..=most).contains(&worst), || format!("{name} on {scenario}: {worst:e}"))?;
+    }
+    Ok(())
+}
