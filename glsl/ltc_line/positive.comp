@@ -50,10 +50,7 @@ precise = true
 // relative error of a half-length 0.25 at distance 10 / 100 / 1000: 1e-7 in all three; positive_split without `precise`
 // 2e-7 / 1e-6 / 1e-5.
 
-#include "common/line_cosine.glsl"
-#ifdef SPLIT_NORMAL
-#include "common/error_free.glsl"
-#endif
+#include "common/line_light.glsl"
 #ifdef SCALED
 #include "common/power_of_two.glsl"
 #endif
@@ -62,51 +59,8 @@ float ltc_line(mat3 minv, vec3 p1, vec3 p2)
 {
 #ifdef SCALED
     float scale = scale_to_one(max(largest_component(p1), largest_component(p2)));
-    p1 *= scale;
-    p2 *= scale;
-#endif
-    vec3 a = minv * p1;
-    vec3 b = minv * p2;
-    if (max(a.z, b.z) <= 0.0) {
-        return 0.0;
-    }
-
-#ifdef SPLIT_NORMAL
-    vec3 normal = cross_split(p1, p2);
+    return scale * line_light(minv, scale * p1, scale * p2);
 #else
-    vec3 nearer = dot(p1, p1) < dot(p2, p2) ? p1 : p2;
-    vec3 normal = cross(nearer, p2 - p1);
+    return line_light(minv, p1, p2);
 #endif
-    vec3 cofactor0 = cross(minv[1], minv[2]);
-    vec3 cofactor1 = cross(minv[2], minv[0]);
-    vec3 cofactor2 = cross(minv[0], minv[1]);
-    vec3 area = cofactor0 * normal.x + cofactor1 * normal.y + cofactor2 * normal.z;
-    float weight = abs(dot(minv[0], cofactor0)) * length(normal);
-    if (!(weight > 0.0)) {
-        return 0.0;
-    }
-
-    float share = 1.0;
-    if (a.z < 0.0) {
-        share = b.z / (b.z - a.z);
-        a = vec3(-area.y, area.x, 0.0) / (b.z - a.z);
-    } else if (b.z < 0.0) {
-        share = a.z / (a.z - b.z);
-        b = vec3(area.y, -area.x, 0.0) / (a.z - b.z);
-    }
-
-    float ra = length(a);
-    float rb = length(b);
-    float inverse_a = 1.0 / ra;
-    float inverse_b = 1.0 / rb;
-    float sine = min(length(area) * share * inverse_a * inverse_b, 1.0);
-    float cosine = dot(a * inverse_a, b * inverse_b);
-    vec2 f = line_factors(sine, cosine);
-    float sum = a.z * inverse_a * (f.x * inverse_b + f.y * inverse_a)
-              + b.z * inverse_b * (f.x * inverse_a + f.y * inverse_b);
-    float result = 0.318309886183790672 * share * (weight * inverse_a * inverse_b) * sum;
-#ifdef SCALED
-    result *= scale;
-#endif
-    return result;
 }

@@ -4,11 +4,13 @@ mod cone_axes;
 mod edge_integral;
 mod ellipse_axes;
 mod horizon_sphere;
+mod ltc_cylinder;
 mod ltc_disk;
 mod ltc_ellipsoid;
 mod ltc_line;
 mod ltc_polygon;
 mod ltc_sphere;
+mod ltc_strip;
 mod problem;
 mod sym3_eigen;
 
@@ -22,11 +24,13 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
     &horizon_sphere::HorizonSphere,
+    &ltc_cylinder::LtcCylinder,
     &ltc_disk::LtcDisk,
     &ltc_ellipsoid::LtcEllipsoid,
     &ltc_line::LtcLine,
     &ltc_polygon::LtcPolygon,
     &ltc_sphere::LtcSphere,
+    &ltc_strip::LtcStrip,
     &sym3_eigen::Sym3Eigen,
 ];
 

@@ -100,6 +100,26 @@ impl Visible {
         self.lengths[0] * self.lengths[1]
     }
 
+    /// The visible part's integral of (q x dq).z/|q|^2, its share in 2 pi times the irradiance of a contour.
+    pub fn contour_term(&self) -> f64 {
+        self.angle * self.normal.z
+    }
+
+    /// The derivatives, by the ends a and b of the whole segment, of the irradiance of a contour that this is a piece
+    /// of: -(1/pi) times the integral of q.z/|q|^4 (q x dq), shared out by place. A few EPS of itself.
+    pub fn contour_gradient(&self) -> [DVec3; 2] {
+        let [ra, rb] = self.lengths;
+        let (f1, f2) = self.factors;
+        let (za, zb) = (self.ends[0].z / ra, self.ends[1].z / rb);
+        // (a x b) over |a| |b| is the normal times the sine.
+        let sine = self.area * self.share / self.length_product();
+        let normal = self.normal * (-0.5 * core::f64::consts::FRAC_1_PI * sine);
+        let at_a = (za * f2 + zb * f1) / ra * normal;
+        let at_b = (za * f1 + zb * f2) / rb * normal;
+        let [from, to] = self.places;
+        [(1.0 - from) * at_a + (1.0 - to) * at_b, from * at_a + to * at_b]
+    }
+
     /// The derivatives of J by the ends a and b of the whole segment, to a few digits; all zero where a x b = 0.
     ///
     /// By 8 Gauss points in the angle, where the integrand is a trigonometric polynomial of degree 4; the crossing's

@@ -5,6 +5,7 @@ pub mod binary16;
 pub mod clipped_ellipse;
 pub mod clipped_sphere;
 pub mod cubic;
+pub mod cylinder_silhouette;
 pub mod double_double;
 pub mod exact;
 pub mod exact3;

@@ -19,6 +19,19 @@ pub fn cross(a: DVec3, b: DVec3) -> Pairs {
     [two_sum(a.y * b.z, -(a.z * b.y)), two_sum(a.z * b.x, -(a.x * b.z)), two_sum(a.x * b.y, -(a.y * b.x))]
 }
 
+/// The sum of exact vectors, each with a factor of -1, 1 or another power of two: off by 2^-105 of itself.
+pub fn sum(terms: &[(f64, &Pairs)]) -> Pairs {
+    [0, 1, 2].map(|row| {
+        let mut parts = [0.0; 9];
+        for (slots, (factor, pairs)) in parts.chunks_exact_mut(2).zip(terms) {
+            slots.copy_from_slice(&[factor * pairs[row].0, factor * pairs[row].1]);
+        }
+        let high = exact::sum(&parts);
+        parts[8] = -high;
+        (high, exact::sum(&parts))
+    })
+}
+
 /// Every component rounded once.
 pub fn rounded(pairs: &Pairs) -> DVec3 {
     DVec3::from_array(pairs.map(|(high, _)| high))

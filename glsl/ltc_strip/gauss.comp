@@ -1,0 +1,51 @@
+/*---
+summary = "Line lights at Gauss points across the strip, each with the width it shows there"
+source  = "ours"
+tried   = "Equidistant lines need twice as many for the same error"
+
+[[variant]]
+name = "gauss2"
+defines = { POINTS = 2 }
+
+[[variant]]
+name = "gauss3"
+defines = { POINTS = 3 }
+---*/
+
+// A rectangle is an integral of parallel lines: with I(v) the line light of p1 + v side .. p2 + v side and w(v) the unit
+// normal of its plane through the point,
+//
+//     E = 1/2 integral over v in -1..1 of I(v) |side . w(v)|
+//
+// exactly, the horizon included, and |side . n(v)| is the same for all v, n = (p1 + v side) x (p2 + v side).
+//
+// Domain: half widths up to about half the distance, and lobes not much narrower than the strip. Strips whose plane
+// holds the point answer 0.
+// Source: ours; Gauss-Legendre abscissae.
+// Bound: with r the half width over the distance (after Minv), error r^4 for 2 points and r^6 for 3, relative; where
+// the horizon cuts the strip lengthwise, the step between two lines.
+// Measured: 1M a scenario, lavapipe (Mesa 22.3), off by more than 1e-4 at alpha 0.1 / 0.2 / 0.5: gauss2 0.19 / 0.11 /
+// 0.05 %, gauss3 0.07 / 0.03 / 0.02 %, nearly all of them strips next to the point or cut lengthwise.
+
+#include "common/line_light.glsl"
+
+float seen(mat3 minv, vec3 p1, vec3 p2)
+{
+    vec3 normal = line_normal(p1, p2);
+    float size = length(normal);
+    return size > 0.0 ? line_light_of(minv, p1, p2, normal) / size : 0.0;
+}
+
+float ltc_strip(mat3 minv, vec3 p1, vec3 p2, vec3 side)
+{
+    float volume = abs(dot(side, line_normal(p1, p2)));
+#if POINTS == 2
+    vec3 offset = 0.577350269189625765 * side;
+    float sum = seen(minv, p1 - offset, p2 - offset) + seen(minv, p1 + offset, p2 + offset);
+    return 0.5 * volume * sum;
+#else
+    vec3 offset = 0.774596669241483377 * side;
+    float outer = seen(minv, p1 - offset, p2 - offset) + seen(minv, p1 + offset, p2 + offset);
+    return volume * (outer * (5.0 / 18.0) + seen(minv, p1, p2) * (8.0 / 18.0));
+#endif
+}
