@@ -23,7 +23,8 @@ defines = { INSIDE = 1 }
 // Domain: cylinders thin against their distance and against the lobe, not seen end-on. Nothing bounds the result by 1.
 // Source: Heitz & Hill 2017; the line's integral is that of ltc_line/positive.
 // Bound: relative, second order in the radius over the distance (after Minv); seen end-on without caps all of it.
-// Measured: -
+// Measured: 300K a scenario, lavapipe (Mesa 22.3), off by more than 1e-4 at alpha 0.1 / 0.2 / 0.5: line and
+// line_inside 6 / 9 / 16 %, line_caps 4 / 5 / 7 %; edge cases 63, 52 and 60 %.
 
 #include "common/line_light.glsl"
 

@@ -39,7 +39,9 @@ defines = { CHORDS = 16, SCALED = 1 }
 // Domain: any cylinder, the point within it too: 1.
 // Source: ours.
 // Bound: exact but for the chords: with 8 of them 1e-3 of a cap's share.
-// Measured: -
+// Measured: 300K a scenario, lavapipe (Mesa 22.3), off by more than 1e-4 at alpha 0.1 / 0.2 / 0.5: rectangle 5 /
+// 9 / 16 %, 4 chords 0.16 / 0.08 / 0.05 %, 8 chords 0.03 / 0.01 / 0.01 %, 16 chords 9, 4 and 4 of 300K; edge cases 33, 16,
+// 5, 2.5 %, scaled 1.0 %.
 
 #include "common/cosine_contour.glsl"
 #ifdef SCALED

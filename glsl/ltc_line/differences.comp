@@ -32,9 +32,9 @@ defines = { ACOS = 1 }
 // Source: Heitz & Hill 2017; the differences ours.
 // Bound: rational terms within a few roundings; p1 x p2 and q1 x q2 lose distance over length, 2^-24 each. acos: the
 // angle's absolute error is 2^-12, so all of a light that subtends less is noise.
-// Measured: 1M a scenario, lavapipe (Mesa 22.3), inaccurate: atan2 2.6 % of tubes over a floor, 3.3 % far, 12 % long;
-// atan_difference 2.2, 5.9, 12 %; acos 12, 61, 14 %. Median relative error of a half-length 0.25 at distance 10 / 100 /
-// 1000: atan2 1e-5 (the driver's atan) / 1.3e-5 / 3e-5; atan_difference 1e-5 / 1.3e-5 / 6e-5; acos 1.3e-4 / 1.3e-3 / 0.12.
+// Measured: 300K a scenario, lavapipe (Mesa 22.3), inaccurate: atan2 4.4 % of tubes over a floor, 4.9 % far, 11 %
+// long; atan_difference 3.6, 8.4, 11 %; acos 18, 71, 11 %. Median relative error of a half-length 0.25 at distance 10 /
+// 100 / 1000: atan2 1e-5 (the driver's atan) / 1.3e-5 / 3e-5; atan_difference 1e-5 / 1.3e-5 / 6e-5; acos 1.3e-4 / 1.3e-3 / 0.12.
 
 float ltc_line(mat3 minv, vec3 p1, vec3 p2)
 {

@@ -24,8 +24,8 @@ defines = { SEEN_WIDTH = 1 }
 // Source: Heitz & Hill 2017; the line's integral is that of ltc_line/positive.
 // Bound: SEEN_WIDTH is off by second order in the width over the distance, and over the lobe's width; the others by
 // zeroth order where the strip is seen obliquely. Half a strip above the horizon counts whole or not at all.
-// Measured: 1M a scenario, lavapipe (Mesa 22.3), off by more than 1e-4 at alpha 0.1 / 0.2 / 0.5: line 7 / 12 / 20 %,
-// line_center_cosine 4 / 6 / 10 %, line_cosine 0.9 / 1.0 / 0.6 %.
+// Measured: 300K a scenario, lavapipe (Mesa 22.3), off by more than 1e-4 at alpha 0.1 / 0.2 / 0.5: line 10 /
+// 17 / 30 %, line_center_cosine 6 / 9 / 15 %, line_cosine 1.2 / 1.1 / 0.7 %.
 
 #include "common/line_light.glsl"
 
