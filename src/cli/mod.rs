@@ -50,9 +50,10 @@ enum Verb {
     /// Audit and time variants, show tables, leave a run folder
     ///
     /// Runs variants over random configurations of each scenario, compares every result with the oracle, and takes the
-    /// time. Tables go to standard output. The run folder holds run.json (counts, histograms, quantiles, worst
-    /// configurations, times, and what repeats the run) and failures.parquet (a sample of failing configurations with
-    /// their exact bits). The same seed gives the same counts on any number of threads and with any chunk size.
+    /// time on each family's first one. Tables go to standard output. The run folder holds run.json (counts, histograms,
+    /// quantiles, worst configurations, times, and what repeats the run) and failures.parquet (a sample of failing
+    /// configurations with their exact bits). The same seed gives the same counts on any number of threads and with any
+    /// chunk size.
     Run(run::Arguments),
     /// Only the precision half of 'run'
     ///

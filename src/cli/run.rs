@@ -107,7 +107,10 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         .collect::<Result<Vec<_>>>()?;
     let mut groups = Vec::new();
     for family in &mut families {
-        for scenario in selection::scenarios(family.selected.problem, &arguments.scenario) {
+        let scenarios = selection::scenarios(family.selected.problem, &arguments.scenario);
+        for (position, scenario) in scenarios.into_iter().enumerate() {
+            // Streaming times hardly depend on the configurations: one scenario tells them.
+            let halves = if halves == Halves::Both && position > 0 { Halves::Audit } else { halves };
             measure(family, scenario, &machine.device, arguments, halves, stop, &mut groups)?;
         }
     }
