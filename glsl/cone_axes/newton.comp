@@ -1,7 +1,6 @@
 /*---
 summary = "The characteristic cubic's negative root by Newton's iteration from -1, the other two from their sum and product"
 source  = "Newton's and Halley's iterations; the quotient by Vieta's formulas"
-tried   = "Fewer steps lose points near the light's plane, where the root ranges over decades; more than the given ones change nothing elsewhere"
 
 [[variant]]
 name = "newton"

@@ -1,7 +1,7 @@
 /*---
 summary = "lambda from the secular equation by rational steps with two poles, everything else as sums of positive terms"
 source  = "ours; the step is the fixed-form interpolation of secular equations (Bunch, Nielsen & Sorensen 1978; Li 1993)"
-tried   = "Starts: tangents of 1/(p + q) at 0 and at infinity and the larger of both (aspect 1e4 and points beside the rim then need up to 12 steps, for 5); the shorter axis dropped; geometric mean of both bounds (never better by a step in the tail); plain Newton on g(mu) (40 steps near the plane). Iteration in log lambda: no better than the rational step and two transcendental functions dearer"
+tried   = "Starts: tangents of 1/(p + q) at 0 and at infinity and the larger of both (aspect 1e4 and points beside the rim then need up to 12 steps, for 5); the shorter axis dropped; geometric mean of both bounds (never better by a step in the tail). Not tried: iteration in log lambda"
 
 [[variant]]
 name = "secular"

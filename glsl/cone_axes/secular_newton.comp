@@ -1,7 +1,6 @@
 /*---
 summary = "mu = cz^2/lambda by Newton's iteration on g(mu) = mu (1 + u^2/(a + mu) + v^2/(b + mu)) - 1 from the best of three lower bounds"
 source  = "ours: g is increasing and concave, so every step climbs"
-tried   = "The rational step of `secular` needs a third of the steps and no height that is not 0"
 
 [[variant]]
 name = "secular_newton"

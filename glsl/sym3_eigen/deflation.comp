@@ -1,7 +1,6 @@
 /*---
 summary = "The best separated eigenvector by cross products, then a stable 2x2 problem in its complement: no trigonometry, no iteration"
 source  = "ours; the order of steps after Eberly 2014, the 2x2 problem by Jacobi's angle"
-tried   = "acos for the first eigenvalue: the same accuracy on a conformant device, up to 4096 ULP worse on one that uses its licence"
 
 [[variant]]
 name = "deflation"
