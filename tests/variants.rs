@@ -150,6 +150,9 @@ const CLAIMS: &[(&str, Claim)] = &[
     ("a quarter turn turns the axes", quarter_turn),
     ("a power-of-two scale scales lengths exactly", scale),
     ("the horizon's closed form, tables and fits keep their bounds", horizon_bounds),
+    ("stable edges and polygons survive, the published ones do not", edges_and_polygons),
+    ("an edge turned round is its negative", turned_edges),
+    ("two triangles are their quad, at any scale", split_quads),
 ];
 
 /// `as_printed` and `naive` must fail for at least a tenth of `aspect`, or the harness is broken.
@@ -298,6 +301,83 @@ fn horizon_bounds(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
         let audited = audit_of(rig, &variant, scenario, MAX_CHUNK)?;
         let worst = audited.summaries[0].outputs[0].worst.found.map_or(f64::INFINITY, |(error, _)| error);
         expect((least..=most).contains(&worst), || format!("{name} on {scenario}: {worst:e}"))?;
+    }
+    Ok(())
+}
+
+/// The published edge fails near opposite vectors, and with it polygons close to their plane; what is taken to be
+/// stable fails nowhere that a renderer goes.
+fn edges_and_polygons(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    let failed = |id: &str, scenario: &str| {
+        Ok::<_, String>(audit_of(rig, &variant(catalog, id)?, scenario, MAX_CHUNK)?.summaries[0].failed())
+    };
+    for (id, scenario) in [
+        ("edge_integral/rational_1e7", "antipodal"),
+        ("edge_integral/rational_542_as_ported", "antipodal"),
+        ("ltc_polygon/cases_rational_1e7", "near_plane"),
+        ("ltc_polygon/clipless_rational", "horizon"),
+    ] {
+        let failed = failed(id, scenario)?;
+        expect(failed > CONFIGURATIONS / 10, || {
+            format!("{id} failed only {failed} of {CONFIGURATIONS} on {scenario}")
+        })?;
+    }
+    for (id, scenarios) in [
+        ("edge_integral/stable", ["scene", "near", "antipodal", "right_angle", "edge"]),
+        ("ltc_polygon/stable_scaled", ["ggx", "far", "needle", "horizon", "inside_out"]),
+    ] {
+        for scenario in scenarios {
+            let failed = failed(id, scenario)?;
+            expect(failed == 0, || format!("{id} failed {failed} of {CONFIGURATIONS} on {scenario}"))?;
+        }
+    }
+    Ok(())
+}
+
+/// Errors of 1e-6 are ten times those that either driver shows.
+fn turned_edges(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    let problem = find("edge_integral").ok_or("no family")?;
+    for (name, scenario) in
+        [("rational", "scene"), ("atan2", "scene"), ("stable", "antipodal"), ("stable", "near")]
+    {
+        let rows = inputs(problem, scenario, 4096);
+        let turned: Vec<f32> = rows.chunks_exact(6).flat_map(|row| [&row[3..], &row[..3]].concat()).collect();
+        let variant = variant(catalog, &format!("edge_integral/{name}"))?;
+        let (one, other) = (evaluate(rig, &variant, &rows)?, evaluate(rig, &variant, &turned)?);
+        for (there, back) in one.iter().zip(&other) {
+            let worst = there.iter().zip(back).map(|(a, b)| (a + b).abs()).fold(0.0, f32::max);
+            expect(worst < 1e-6, || format!("{name} on {scenario}: {worst}"))?;
+        }
+    }
+    Ok(())
+}
+
+/// A quad is two triangles, up to 1e-4 of the hemisphere that its corners' rounding may do; and scaled by powers of two
+/// it is the same quad, bit for bit.
+fn split_quads(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    let problem = find("ltc_polygon").ok_or("no family")?;
+    let rows = inputs(problem, "ggx", 4096);
+    let variant = variant(catalog, "ltc_polygon/stable_scaled")?;
+    let whole = evaluate(rig, &variant, &rows)?.swap_remove(0);
+    let part = |corners: [usize; 4]| {
+        let pick = |row: &[f32]| {
+            let corner = |k: usize| row[9 + 3 * k..12 + 3 * k].to_vec();
+            [row[..9].to_vec(), corners.map(corner).concat()].concat()
+        };
+        let rows: Vec<f32> = rows.chunks_exact(21).flat_map(pick).collect();
+        Ok::<_, String>(evaluate(rig, &variant, &rows)?.swap_remove(0))
+    };
+    let (first, second) = (part([0, 1, 2, 0])?, part([0, 2, 3, 0])?);
+    for (row, whole) in whole.iter().enumerate() {
+        let sum = first[row] + second[row];
+        expect((sum - whole).abs() < 1e-4, || format!("row {row}: {whole} is not {sum}"))?;
+    }
+    for exponent in [-20, 20] {
+        let scale = |(i, v): (usize, &f32)| if i % 21 < 9 { *v } else { *v * 2f32.powi(exponent) };
+        let scaled: Vec<f32> = rows.iter().enumerate().map(scale).collect();
+        let scaled = evaluate(rig, &variant, &scaled)?.swap_remove(0);
+        let changed = whole.iter().zip(&scaled).filter(|(a, b)| a.to_bits() != b.to_bits()).count();
+        expect(changed == 0, || format!("{changed} rows change under 2^{exponent}"))?;
     }
     Ok(())
 }

@@ -24,10 +24,10 @@ defines = { EDGE = "edge_stable" }
 // Domain: as of `cases`. An approximation: exact where Minv keeps the horizon or the light clears both.
 // Bound: none; the lobe's share between the two horizons, small for smooth and for upright lobes.
 // Measured: failed, and worst error; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
-//                                 ggx         far  near_plane      needle  inside_out       edge
-//   before_acos            46.6% 2099  0.53% 0.02  56.1% 3601  10.9% 0.47  94.2% 1268  23.5% inf
-//   before_rational_1e7    46.4% 0.49  0.53% 0.02  55.9% 1.00  10.8% 0.47  94.6% 0.49  23.2% inf
-//   before_stable          46.4% 0.49  0.53% 0.02  54.9% 1.00  10.8% 0.47  94.6% 0.49  22.6% inf
+//                                 ggx           far  near_plane      needle  inside_out       edge
+//   before_acos            24.3% 3080  0.02% 3.5e-3  45.3% 3800  2.47% 0.03  87.8% 3541  19.7% inf
+//   before_rational_1e7    24.1% 0.50  0.02% 3.5e-3  45.1% 0.98  2.41% 0.03  88.6% 0.55  19.4% inf
+//   before_stable          24.0% 0.01  0.02% 3.5e-3  43.4% 0.99  2.40% 0.01  88.5% 0.01  18.8% inf
 
 #include "common/edge_any.glsl"
 

@@ -83,21 +83,21 @@ defines = { EDGE = "edge_stable" }
 // Bound: normalising rounds every corner by 2^-24, which turns an edge's plane by 2^-24/sin(theta): 1e-4 of the result
 // within 1e-3 of pi. What the form of the edge adds is stated there.
 // Measured: failed, and worst error; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
-//                                       ggx           far    near_plane      needle    inside_out       edge
-//   cases_acos_clamped           1.31% 0.50      0 3.0e-5    27.8% 0.93  0.12% 0.43    28.9% 0.55  16.5% inf
-//   cases_acos                   1.29% 1653      0 3.0e-5    27.1% 3898  0.11% 0.04  28.6% 7.7e-3  16.7% inf
-//   cases_acos_normalized         4x 1.3e-4  1.89% 2.2e-4     0.11% inf   0.21% inf     9x 1.1e-4  42.9% inf
-//   cases_atan2                    0 5.9e-6      0 6.6e-7      61x 0.80    0 7.6e-5      0 2.0e-5  15.5% inf
-//   cases_rational                0.11% inf      0 1.6e-7     22.6% inf  0.01% 0.04  1.13% 7.8e-3  20.5% inf
-//   cases_rational_1e7           0.11% 0.46      0 1.6e-7    22.6% 0.80  0.01% 0.04  1.13% 7.8e-3  16.1% inf
-//   cases_rational_flt_min     0.11% 1.3e15      0 1.6e-7  22.6% 3.1e15  0.01% 0.04  1.12% 7.8e-3  17.2% inf
-//   cases_rational_epsilon       0.11% 0.44      0 1.6e-7    22.6% 0.90  0.01% 0.04  1.13% 7.8e-3  16.1% inf
-//   cases_rational_saturate       0.11% inf      0 1.6e-7     22.6% inf  0.01% 0.04  1.13% 7.8e-3  20.5% inf
-//   cases_rational_split       0.08% 2.9e-3      0 1.6e-7    2.60% 0.80  95x 1.6e-3  1.12% 3.3e-3  18.7% inf
-//   cases_quadratic_1e7          43.5% 0.46    72x 2.7e-3    63.4% 0.80  5.49% 0.04  75.5% 7.8e-3  34.9% inf
-//   cases_cubic_1e7              14.7% 0.46    15x 2.2e-4    36.7% 0.80  1.05% 0.04  28.3% 7.8e-3  21.6% inf
-//   cases_poly7_1e7              0.11% 0.46      0 1.6e-7    22.6% 0.80  0.01% 0.04  1.13% 7.8e-3  16.1% inf
-//   cases_stable                   0 6.0e-6      0 8.4e-8      61x 0.80    0 7.6e-5      0 1.9e-5  15.6% inf
+//                                       ggx           far  near_plane        needle    inside_out       edge
+//   cases_acos_clamped           1.99% 0.61      0 5.7e-5   28.5% inf    0.11% 0.45    34.1% 0.84  16.6% inf
+//   cases_acos                   1.94% 2534      0 5.7e-5   27.8% inf    0.10% 0.07    33.2% 3109  16.7% inf
+//   cases_acos_normalized         3x 1.2e-4  1.75% 2.0e-4   0.11% inf     0.19% inf      0 1.0e-4  44.9% inf
+//   cases_atan2                    0 4.1e-6      0 8.5e-7   0.03% inf      0 3.8e-5      0 1.9e-5  15.5% inf
+//   cases_rational                0.29% inf      0 3.0e-7   23.4% inf    0.02% 0.07     5.55% inf  20.5% inf
+//   cases_rational_1e7           0.29% 0.49      0 3.0e-7   23.4% inf    0.02% 0.07    5.55% 0.47  16.1% inf
+//   cases_rational_flt_min     0.29% 2.0e15      0 2.4e-7   23.4% inf    0.02% 0.07  5.55% 2.5e15  17.1% inf
+//   cases_rational_epsilon       0.29% 0.49      0 3.0e-7   23.4% inf    0.02% 0.07    5.55% 0.61  16.1% inf
+//   cases_rational_saturate       0.29% inf      0 3.0e-7   23.4% inf    0.02% 0.07     5.55% inf  20.5% inf
+//   cases_rational_split       0.19% 3.1e-3      0 3.0e-7   2.63% inf  0.02% 2.9e-3  3.84% 4.5e-3  18.8% inf
+//   cases_quadratic_1e7          47.6% 0.50  0.01% 3.5e-3   60.7% inf    5.57% 0.07    73.7% 0.47  35.1% inf
+//   cases_cubic_1e7              14.0% 0.49    22x 2.9e-4   34.3% inf    0.98% 0.07    27.4% 0.47  21.1% inf
+//   cases_poly7_1e7              0.29% 0.49      0 1.8e-7   23.4% inf    0.02% 0.07    5.55% 0.47  16.1% inf
+//   cases_stable                   0 4.5e-6      0 1.3e-7   0.03% inf      0 3.8e-5      0 2.0e-5  15.5% inf
 
 #include "common/edge_any.glsl"
 

@@ -50,14 +50,14 @@ defines = { HORIZON = "horizon_stable", EDGE = "edge_stable" }
 // and by up to 0.16 with (z + l^2)/(l + 1), which is off by as much where nothing is cut. Beyond that the edges' and
 // the horizon's own errors: the published closed form of the sphere answers 0 where |F| rounds to 1.
 // Measured: failed, and worst error; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
-//                                           ggx         far  near_plane      needle  inside_out        edge
-//   clipless_sphere                  30.9% 1.00    0 2.5e-6  41.3% 1.00  5.12% 1.00  74.7% 1.00  13.6% 1.00
-//   clipless_rational                47.9% 0.16  0.01% 0.02  36.8% 1.00  7.20% 0.16  90.9% 0.16  22.2% 1.00
-//   clipless_lut                     33.1% 0.07    0 4.5e-6  35.8% 1.00  5.15% 0.08  91.8% 0.07  14.4% 1.00
-//   clipless_lut_sampler             33.1% 0.07    0 4.5e-6  35.8% 1.00  5.15% 0.08  91.8% 0.07  14.4% 1.00
-//   clipless_sphere_stable           30.8% 0.07    0 2.3e-6  34.8% 1.00  5.13% 0.08  74.0% 0.07  14.0% 1.00
-//   clipless_rational_stable         47.9% 0.16  0.01% 0.02  35.7% 1.00  7.19% 0.16  90.9% 0.16  21.6% 1.00
-//   clipless_sphere_stable_stable    30.8% 0.07    0 2.3e-6  28.7% 1.00  5.10% 0.08  74.0% 0.07  13.5% 1.00
+//                                           ggx        far  near_plane      needle  inside_out        edge
+//   clipless_sphere                  30.8% 1.00  3x 1.4e-3  45.4% 1.00  6.59% 1.00  83.0% 1.00  13.3% 1.00
+//   clipless_rational                54.9% 0.22   97x 0.03  39.4% 1.00  8.82% 0.41  95.0% 0.29  23.4% 1.10
+//   clipless_lut                     32.1% 0.11  3x 1.4e-3  38.2% 1.00  6.60% 0.40  94.9% 0.15  14.0% 1.10
+//   clipless_lut_sampler             32.1% 0.11  3x 1.4e-3  38.2% 1.00  6.60% 0.40  94.9% 0.15  14.0% 1.10
+//   clipless_sphere_stable           30.8% 0.11  3x 1.4e-3  38.8% 1.00  6.59% 0.40  82.6% 0.14  13.7% 1.00
+//   clipless_rational_stable         54.9% 0.16   97x 0.03  38.2% 1.00  8.77% 0.16  95.0% 0.16  22.9% 1.00
+//   clipless_sphere_stable_stable    30.7% 0.08  3x 1.4e-3  31.8% 1.00  6.51% 0.08  82.3% 0.07  13.2% 1.00
 
 #include "common/edge_any.glsl"
 #include "common/horizon_sphere.glsl"

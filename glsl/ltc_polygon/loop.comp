@@ -44,14 +44,14 @@ defines = { EDGE = "edge_stable" }
 // Source: Sutherland & Hodgman 1974; a cut by interpolation, a + t (b - a) with t = a.z/(a.z - b.z).
 // Bound: as of `cases`; a cut by interpolation is off by 2^-24 of the first corner, however close to the point it is.
 // Measured: failed, and worst error; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
-//                                     ggx       far    near_plane      needle    inside_out       edge
-//   loop_acos                  1.30% 2421  0 3.0e-5    27.3% 3547  0.11% 0.04  28.6% 7.7e-3  16.6% inf
-//   loop_atan2                   0 1.2e-5  0 6.6e-7    0.19% 0.99    0 5.6e-5      0 5.5e-5  15.3% inf
-//   loop_rational               0.11% inf  0 1.6e-7     22.8% inf  0.01% 0.04  1.13% 7.8e-3  20.3% inf
-//   loop_rational_1e7          0.11% 0.47  0 1.6e-7    22.8% 1.00  0.01% 0.04  1.13% 7.8e-3  15.9% inf
-//   loop_rational_flt_min    0.11% 2.0e15  0 1.6e-7  22.8% 2.9e15  0.01% 0.04  1.13% 7.8e-3  17.2% inf
-//   loop_poly7_1e7             0.11% 0.47  0 1.6e-7    22.8% 1.00  0.01% 0.04  1.13% 7.8e-3  15.9% inf
-//   loop_stable                  0 1.3e-5  0 8.4e-8    0.19% 0.99    0 5.5e-5      0 5.5e-5  15.4% inf
+//                                     ggx       far  near_plane      needle    inside_out       edge
+//   loop_acos                  1.94% 3069  0 5.7e-5   28.1% inf  0.10% 0.03    33.2% 3096  16.6% inf
+//   loop_atan2                   0 1.1e-5  0 8.5e-7   0.27% inf    0 1.8e-5      0 2.6e-5  15.3% inf
+//   loop_rational               0.29% inf  0 3.0e-7   23.6% inf  0.02% 0.03     5.56% inf  20.4% inf
+//   loop_rational_1e7          0.29% 0.50  0 3.0e-7   23.6% inf  0.02% 0.03    5.56% 0.47  16.0% inf
+//   loop_rational_flt_min    0.29% 2.5e15  0 2.4e-7   23.6% inf  0.02% 0.03  5.56% 2.5e15  17.2% inf
+//   loop_poly7_1e7             0.29% 0.50  0 1.8e-7   23.6% inf  0.02% 0.03    5.56% 0.47  16.0% inf
+//   loop_stable                  0 1.1e-5  0 1.3e-7   0.27% inf    0 1.8e-5      0 2.7e-5  15.4% inf
 
 #include "common/edge_any.glsl"
 

@@ -57,12 +57,12 @@ defines = { ATAN2 = 1 }
 // Bound: a few 2^-24 of the irradiance's terms, and what rounding q does to edges that nearly pass the point.
 // Measured: failed, and worst error; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
 //                                 ggx       far  near_plane    needle  inside_out        edge
-//   stable                   0 7.0e-6  0 8.3e-8    62x 0.80  0 7.5e-5    0 2.4e-5  0.34% 1.00
-//   stable_scaled            0 7.0e-6  0 8.3e-8    62x 0.80  0 7.5e-5    0 2.4e-5    84x 1.00
-//   stable_differences       0 7.0e-6  0 1.3e-7    62x 0.80  0 7.5e-5    0 2.4e-5    84x 1.00
-//   stable_compensated       0 6.7e-6  0 8.3e-8    62x 0.80  0 7.7e-5    0 2.0e-5    84x 1.00
-//   stable_hill              0 7.0e-6  0 1.3e-7    62x 0.80  0 7.5e-5    0 2.4e-5  0.34% 1.00
-//   stable_atan2             0 6.6e-6  0 6.8e-7    62x 0.80  0 7.5e-5    0 2.4e-5  0.82% 1.00
+//   stable                   0 4.4e-6  0 9.8e-8  0.03% 0.99  0 3.8e-5    0 2.0e-5  0.35% 1.00
+//   stable_scaled            0 4.4e-6  0 9.8e-8  0.03% 0.99  0 3.8e-5    0 2.0e-5    95x 1.00
+//   stable_differences       0 4.4e-6  0 1.0e-7  0.03% 0.99  0 3.8e-5    0 2.0e-5    95x 1.00
+//   stable_compensated       0 4.4e-6  0 1.6e-7  0.03% 0.99  0 3.8e-5    0 2.0e-5    95x 1.00
+//   stable_hill              0 4.4e-6  0 2.7e-7  0.02% 0.99  0 3.8e-5    0 2.0e-5  0.35% 1.00
+//   stable_atan2             0 4.1e-6  0 8.6e-7  0.03% 0.99  0 3.8e-5    0 2.0e-5  0.87% 1.00
 
 #include "common/edge_fit.glsl"
 #include "common/edge_stable.glsl"

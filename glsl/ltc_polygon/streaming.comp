@@ -23,10 +23,10 @@ defines = { EDGE = "edge_stable" }
 // Domain: any contour; otherwise as of `cases`.
 // Bound: as of `cases`; a cut by interpolation is off by 2^-24 of the first corner, however close to the point it is.
 // Measured: failed, and worst error; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
-//                                    ggx       far  near_plane      needle    inside_out       edge
-//   streaming_acos            1.30% 2421  0 3.0e-5  27.3% 3547  0.11% 0.04  28.6% 7.7e-3  16.6% inf
-//   streaming_rational_1e7    0.11% 0.47  0 1.6e-7  22.8% 1.00  0.01% 0.04  1.13% 7.8e-3  15.9% inf
-//   streaming_stable            0 1.3e-5  0 8.3e-8  0.19% 0.99    0 5.5e-5      0 5.5e-5  15.4% inf
+//                                    ggx       far  near_plane      needle  inside_out       edge
+//   streaming_acos            1.94% 3069  0 5.7e-5   28.1% inf  0.10% 0.03  33.2% 3096  16.6% inf
+//   streaming_rational_1e7    0.29% 0.50  0 3.0e-7   23.6% inf  0.02% 0.03  5.56% 0.47  16.0% inf
+//   streaming_stable            0 1.1e-5  0 1.1e-7   0.27% inf    0 1.8e-5    0 2.7e-5  15.4% inf
 
 #include "common/edge_any.glsl"
 
