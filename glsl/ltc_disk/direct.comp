@@ -27,7 +27,9 @@ defines = { HORIZON = 2 }
 // Bound: the exact horizon is off by about 2^-21 of the light's share of the hemisphere, and by what N = V1 x V2 loses
 // for needles, 2^-24 aspect. The sphere of equal form factor is an approximation: up to 0.01 for a light cut by the
 // horizon.
-// Measured: -
+// Measured (lavapipe, Mesa 22.3, 1 M a scenario): direct_exact has no failure in any scenario but edge (3.5 %, extreme
+// matrices); p99 of the error below 7e-7, nothing that is not finite. The table fails
+// on 6.9 % of ggx and 44 % of horizon, the sphere in closed form on 6.6 % and 44 %, the rational fit on 21 % and 51 %.
 
 #include "common/disk_direct.glsl"
 

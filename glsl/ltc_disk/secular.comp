@@ -28,7 +28,8 @@ defines = { HORIZON = 2 }
 // Domain: any finite light and matrix; edge-on and empty lights give 0.
 // Source: ours; the angle as in Jacobi's method.
 // Bound: as `direct_exact`.
-// Measured: -
+// Measured (lavapipe, Mesa 22.3, 1 M a scenario): secular_exact has no failure in any scenario but edge (3.5 %, extreme
+// matrices), p99 of the error below 7e-7, nothing that is not finite.
 
 #ifndef EXACT_HORIZON
 #include "common/horizon_choice.glsl"

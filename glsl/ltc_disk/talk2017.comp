@@ -45,7 +45,10 @@ defines = { FLOOR = "1e-7", CLAMP_DET = 1, CLAMP_DISCRIMINANT = 1, CLAMP_RADICAN
 // Domain: generic lights. A disk that faces the point has a double root, and the discriminant's sign is rounding; a far
 // light overflows the discriminant as (4/81)(d/r)^12. No guard but those that a variant names.
 // Bound: none.
-// Measured: -
+// Measured (lavapipe, Mesa 22.3, 1 M a scenario): failed 7.6 % of ggx, 11 % of grazing, 33 % of facing, 2.3 % of far, 35 % of
+// near_plane, 7.8 % of needle, 44 % of horizon, 90 % of inside_out; NaN in 2.3 % of far, 1.3 % of needle, 51 % of edge. On facing
+// Mesa's atan() makes a number of the NaN, wrong by up to 0.02. The discriminant's clamp mends facing (0.17 %) and not far, the
+// clamped form factor far (0.01 %) and not facing; e/b mends both; none the horizon.
 
 #include "common/disk_talk2017.glsl"
 

@@ -19,7 +19,8 @@ defines = { HORIZON = 2 }
 // Domain: any semi-axes of ratios up to about 1e6, one of them 0 included; from inside the answer is 1.
 // Source: as above.
 // Bound: the disk's, and 2^-22 over the height off the surface in radii.
-// Measured: -
+// Measured (lavapipe, Mesa 22.3, 1 M a scenario): direct_exact fails on 0.10 % of flat and on nothing else; the table on 50 % of
+// ggx and 98 % of near_surface, the rational fit on 65 % and 100 %.
 
 #include "common/disk_direct.glsl"
 #include "common/ellipsoid_disk.glsl"

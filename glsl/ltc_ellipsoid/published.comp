@@ -19,7 +19,8 @@ defines = { AS_PRINTED = 1, SHORTCUT = "7e-4", OVER_B = 1, CLAMP_DISCRIMINANT = 
 // Domain: the point outside, a unit quaternion up to rounding. No guard is added.
 // Source: equation 1 of the paper, M = R D R^T; its listing writes R^T on the left too (AS_PRINTED).
 // Bound: none.
-// Measured: -
+// Measured (lavapipe, Mesa 22.3, 1 M a scenario): talk2017 fails on 54 % of ggx, 38 % of flat, 5.2 % of far, 99 % of near_surface;
+// the fixes leave 54 %, 38 %, 21 in a million and 99 %; as_printed fails on 74 % of ggx and of flat.
 
 #include "common/disk_talk2017.glsl"
 #include "common/ellipsoid_disk.glsl"

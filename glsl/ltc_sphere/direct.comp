@@ -21,7 +21,9 @@ defines = { HORIZON = 2 }
 // Domain: any sphere and matrix within f32's squares; from inside the answer is 1, the whole hemisphere.
 // Source: ours.
 // Bound: the disk's; 1 - (r/d)^2 is formed as a product, so a point just off the sphere loses nothing.
-// Measured: -
+// Measured (lavapipe, Mesa 22.3, 1 M a scenario): direct_exact has no failure but in edge (0.58 %). The table fails on 37 % of
+// ggx and 97 % of near_surface, the sphere in closed form on 35 % and 70 % (none under the plain cosine, where it is exact),
+// the rational fit on 55 % and 97 %.
 
 #include "common/disk_direct.glsl"
 #include "common/sphere_disk.glsl"
