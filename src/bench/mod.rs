@@ -4,4 +4,4 @@ mod statistics;
 mod streaming;
 
 pub use statistics::{Quartiles, rate_interval};
-pub use streaming::{Effort, Timing, streaming};
+pub use streaming::{CONFIGURATIONS, Effort, Timing, streaming};

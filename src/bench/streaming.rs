@@ -35,6 +35,10 @@ impl Default for Effort {
     }
 }
 
+/// Configurations a submission: columns too large for most caches, and tens of milliseconds for the slowest kernels on a
+/// software device, where a dispatch over 200 ms may be killed.
+pub const CONFIGURATIONS: u64 = 1 << 18;
+
 /// A sample lasts at least this long: shorter kernels are submitted several times for one sample.
 const MIN_SAMPLE: Duration = Duration::from_millis(2);
 /// So many submissions a sample at most.

@@ -64,7 +64,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
     /// Seconds of timing a scenario, after a warm-up; at least 7 rounds over all variants are taken
-    #[arg(long, value_name = "S", default_value_t = 3.0)]
+    #[arg(long, value_name = "S", default_value_t = 1.5)]
     seconds: f64,
 }
 
@@ -229,8 +229,8 @@ fn measure(
     if halves != Halves::Audit {
         let signature = problem.signature();
         let (inputs, outputs) = (signature.input_columns().len(), signature.output_columns().len());
-        let rows =
-            (arguments.configurations.min(plan.chunk as u64) as usize).min(device.max_rows(inputs, outputs));
+        let rows = (arguments.configurations.min(bench::CONFIGURATIONS) as usize)
+            .min(device.max_rows(inputs, outputs));
         let chunk = Chunk::draw(problem, scenario, arguments.seed, 0, rows);
         let columns = device.upload(chunk.inputs(), inputs)?;
         let effort = Effort { time: Duration::from_secs_f64(arguments.seconds), ..Effort::default() };
