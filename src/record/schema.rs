@@ -93,6 +93,9 @@ pub struct Landmark {
 pub struct Scenario {
     pub name: String,
     pub summary: String,
+    /// Digest of all configurations' bits, in hexadecimal: where two runs agree in it, they had the same configurations.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub inputs: Option<String>,
     /// Absent if only times were taken.
     pub oracle: Option<Oracle>,
 }
