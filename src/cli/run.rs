@@ -134,6 +134,7 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
             chunk: arguments.chunk.min(MAX_CHUNK as u64) as usize,
             max_failures: arguments.max_failures,
         },
+        ceilings: None,
         families: families.into_iter().map(|family| family.record).collect(),
     };
     let folder = folder.finish(&run, &evidence)?;
@@ -206,7 +207,12 @@ fn measure(
     let mut results: Vec<record::Result> = family
         .programs
         .iter()
-        .map(|_| record::Result { scenario: scenario.name.to_owned(), audit: None, timing: None })
+        .map(|_| record::Result {
+            scenario: scenario.name.to_owned(),
+            audit: None,
+            timing: None,
+            arithmetic: Vec::new(),
+        })
         .collect();
     let (mut oracle, mut digest) = (None, None);
 
@@ -253,6 +259,7 @@ fn measure(
         summary: scenario.summary.to_owned(),
         inputs: digest,
         oracle,
+        rankings: Vec::new(),
     });
     eprintln!("done: {label}");
     Ok(())
