@@ -23,6 +23,7 @@ pub struct Chunk {
     inputs: Vec<f32>,
     truth: Vec<f64>,
     sensitivities: Vec<f64>,
+    margins: Vec<f64>,
     bins: Vec<u8>,
     /// What the oracle said of its own certainty.
     pub oracle: OracleSummary,
@@ -75,14 +76,16 @@ impl Chunk {
         let rows = inputs.len() / widths.inputs;
         let mut truth = vec![0.0; rows * widths.truth];
         let mut sensitivities = vec![0.0; rows * widths.sensitivities];
+        let mut margins = vec![0.0; rows];
         let mut bins = vec![0; rows * widths.bins];
         // A family without landmarks has empty bins, which cannot be chunked by zero.
         let oracle = inputs
             .par_chunks(BLOCK * widths.inputs)
             .zip(truth.par_chunks_mut(BLOCK * widths.truth))
             .zip(sensitivities.par_chunks_mut(BLOCK * widths.sensitivities))
+            .zip(margins.par_chunks_mut(BLOCK))
             .zip(bins.par_chunks_mut((BLOCK * widths.bins).max(1)))
-            .map(|(((inputs, truth), sensitivities), bins)| {
+            .map(|((((inputs, truth), sensitivities), margins), bins)| {
                 let mut oracle = OracleSummary::default();
                 let mut scratch = Truth::new(problem.outputs());
                 for (row, input) in inputs.chunks_exact(widths.inputs).enumerate() {
@@ -92,6 +95,7 @@ impl Chunk {
                     truth[row * widths.truth..][..widths.truth].copy_from_slice(scratch.values());
                     sensitivities[row * widths.sensitivities..][..widths.sensitivities]
                         .copy_from_slice(scratch.sensitivities());
+                    margins[row] = scratch.margin();
                     for (bin, landmark) in bins[row * widths.bins..].iter_mut().zip(problem.landmarks()) {
                         *bin = landmark.bin(input, &scratch) as u8;
                     }
@@ -99,7 +103,7 @@ impl Chunk {
                 oracle
             })
             .reduce(OracleSummary::default, OracleSummary::merged);
-        Chunk { first, rows, widths, inputs, truth, sensitivities, bins, oracle }
+        Chunk { first, rows, widths, inputs, truth, sensitivities, margins, bins, oracle }
     }
 
     pub fn rows(&self) -> usize {
@@ -130,6 +134,7 @@ impl Chunk {
             inputs: &self.inputs[row * inputs..][..inputs],
             truth: self.truth(row),
             sensitivities: &self.sensitivities[row * sensitivities..][..sensitivities],
+            margin: self.margins[row],
             bins: &self.bins[row * bins..][..bins],
         }
     }

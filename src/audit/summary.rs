@@ -4,7 +4,7 @@
 use super::failures::{Failure, Failures};
 use super::judge::Measure;
 use super::{Fingerprint, Histogram, Verdict, judge};
-use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem};
+use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem, Quantity};
 
 /// One variant on one scenario.
 #[derive(Clone, Debug)]
@@ -23,10 +23,12 @@ pub struct Summary {
 /// One output of one variant on one scenario.
 #[derive(Clone, Debug, Default)]
 pub struct OutputSummary {
-    /// Configurations whose error is beyond the output's tolerance or not finite, whoever is to blame.
+    /// Configurations whose error is beyond the output's tolerance, not finite, or not to be had because only one of truth
+    /// and variant is a miss; whoever is to blame.
     pub beyond: u64,
     /// Configurations whose error is at least one step of 8 bits, of 10 bits, of binary16.
     pub visible: [u64; 3],
+    /// This and the others: of the configurations where neither truth nor variant is a miss.
     pub error: Histogram,
     pub ulp: Histogram,
     pub conditioned: Histogram,
@@ -68,6 +70,8 @@ pub(super) struct Row<'a> {
     pub inputs: &'a [f32],
     pub truth: &'a [f64],
     pub sensitivities: &'a [f64],
+    /// The relative change of the inputs that turns a hit into a miss or back.
+    pub margin: f64,
     /// One bin a landmark.
     pub bins: &'a [u8],
 }
@@ -88,30 +92,62 @@ impl Summary {
     /// Judges one configuration's outputs, given as all components in column order.
     pub(super) fn judge(&mut self, problem: &dyn Problem, row: Row<'_>, values: &[f32; MAX_COMPONENTS]) {
         let outputs = problem.outputs();
+        let values = &values[..row.truth.len()];
         let (mut errors, mut ulps) = ([0.0; MAX_OUTPUTS], [0.0; MAX_OUTPUTS]);
-        let mut starts = [0; MAX_OUTPUTS];
-        let mut verdict = Verdict::Ok;
-        let mut start = 0;
-        for (position, output) in outputs.iter().enumerate() {
-            let components = start..start + output.field.ty.components();
-            starts[position] = start;
-            start = components.end;
-            let measure = judge::measure(
-                output,
-                &values[components.clone()],
-                &row.truth[components],
-                row.sensitivities[position],
-            );
-            verdict = verdict.max(measure.verdict);
+        let mut record = |position: usize, measure: &Measure| {
             (errors[position], ulps[position]) = (measure.error, measure.ulp);
-            self.outputs[position].add(&measure, output.tolerance, row.index);
+        };
+        let mut verdict = Verdict::Ok;
+        let mut exact = [0.0; MAX_COMPONENTS];
+        for (exact, value) in exact.iter_mut().zip(values) {
+            *exact = f64::from(*value);
         }
-        for relation in problem.relations() {
-            let holds = judge::holds(*relation, outputs, |output| {
-                &values[starts[output]..][..outputs[output].field.ty.components()]
-            });
-            if !holds {
-                verdict = verdict.max(Verdict::NotOrthogonal);
+        let exact = &exact[..values.len()];
+        let finite = values.iter().all(|value| value.is_finite());
+        let (missed, truth_missed) = (problem.is_miss(exact), problem.is_miss(row.truth));
+        if let Some(class) = judge::miss(finite, missed, truth_missed, row.margin) {
+            verdict = class;
+            for (position, summary) in self.outputs.iter_mut().enumerate().filter(|_| class != Verdict::Ok) {
+                let failed = Measure::failed(class);
+                record(position, &failed);
+                if finite {
+                    summary.add_unmeasured();
+                } else {
+                    summary.add(&failed, outputs[position].tolerance, row.index);
+                }
+            }
+        } else {
+            let mut start = 0;
+            let mut starts = [0; MAX_OUTPUTS];
+            for (position, output) in outputs.iter().enumerate() {
+                let components = start..start + output.field.ty.components();
+                starts[position] = start;
+                start = components.end;
+                let sensitivity = row.sensitivities[position];
+                let measure = match output.quantity {
+                    Quantity::Property => {
+                        let residual = problem.residual(position, row.inputs, exact);
+                        judge::residual(output, residual, sensitivity)
+                    }
+                    _ => judge::measure(
+                        output,
+                        &values[components.clone()],
+                        &row.truth[components],
+                        sensitivity,
+                    ),
+                };
+                verdict = verdict.max(measure.verdict);
+                record(position, &measure);
+                self.outputs[position].add(&measure, output.tolerance, row.index);
+            }
+            let components = |at: usize| starts[at]..starts[at] + outputs[at].field.ty.components();
+            for relation in problem.relations() {
+                verdict = verdict.max(judge::relate(
+                    *relation,
+                    outputs,
+                    |output| &values[components(output)],
+                    |output| &row.truth[components(output)],
+                ));
             }
         }
 
@@ -130,7 +166,7 @@ impl Summary {
                 index: row.index,
                 verdict,
                 inputs: row.inputs.to_vec(),
-                outputs: values[..start].to_vec(),
+                outputs: values.to_vec(),
                 truth: row.truth.to_vec(),
                 errors: errors[..outputs.len()].to_vec(),
                 ulps: ulps[..outputs.len()].to_vec(),
@@ -175,6 +211,14 @@ impl OutputSummary {
         self.conditioned.add(measure.conditioned);
         if measure.error.is_finite() {
             self.worst.offer(measure.error, measure.ulp, index);
+        }
+    }
+
+    /// Counts a miss for a hit or a hit for a miss: beyond any tolerance, and surely seen.
+    fn add_unmeasured(&mut self) {
+        self.beyond += 1;
+        for count in &mut self.visible {
+            *count += 1;
         }
     }
 

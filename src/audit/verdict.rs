@@ -14,26 +14,32 @@ pub enum Verdict {
     Inaccurate,
     /// Axes that ought to be orthogonal are not.
     NotOrthogonal,
+    /// A box that does not enclose what it must.
+    NotEnclosing,
     /// A direction whose length is not 1.
     NotUnit,
     /// A value of the wrong sign, such as a negative length.
     WrongSign,
     /// A share of the whole that is negative or above all there is.
     OutOfRange,
+    /// A miss for a hit, or a hit for a miss, and further from the border than rounding the inputs would explain.
+    Missed,
     /// NaN or infinite where the truth is a finite f32.
     NonFinite,
 }
 
 impl Verdict {
     /// Every verdict, ascending.
-    pub const ALL: [Verdict; 8] = [
+    pub const ALL: [Verdict; 10] = [
         Verdict::Ok,
         Verdict::IllConditioned,
         Verdict::Inaccurate,
         Verdict::NotOrthogonal,
+        Verdict::NotEnclosing,
         Verdict::NotUnit,
         Verdict::WrongSign,
         Verdict::OutOfRange,
+        Verdict::Missed,
         Verdict::NonFinite,
     ];
 
@@ -44,9 +50,11 @@ impl Verdict {
             Verdict::IllConditioned => "ill_conditioned",
             Verdict::Inaccurate => "inaccurate",
             Verdict::NotOrthogonal => "not_orthogonal",
+            Verdict::NotEnclosing => "not_enclosing",
             Verdict::NotUnit => "not_unit",
             Verdict::WrongSign => "wrong_sign",
             Verdict::OutOfRange => "out_of_range",
+            Verdict::Missed => "missed",
             Verdict::NonFinite => "non_finite",
         }
     }

@@ -34,6 +34,19 @@ pub trait Problem: Sync {
     /// `input` has one value a column, all finite.
     fn oracle(&self, input: &[f32], truth: &mut Truth);
 
+    /// How far results are from the property that output `output` must have, a [`Quantity::Property`]; 0 where it holds
+    /// exactly. `values` are all results in column order, and not necessarily finite: then the answer may be NaN.
+    fn residual(&self, _output: usize, _input: &[f32], _values: &[f64]) -> f64 {
+        f64::NAN
+    }
+
+    /// Whether results, of a variant or exact ones, say that there is none, such as a ray's miss: by the values that the
+    /// family states for it. Hits and misses are two classes. Where truth and variant both miss there is nothing to
+    /// measure; where one does, either the oracle's [`Truth::margin`] explains it or the variant has `missed`.
+    fn is_miss(&self, _values: &[f64]) -> bool {
+        false
+    }
+
     /// The GLSL function's signature.
     fn signature(&self) -> Signature {
         Signature {
@@ -85,13 +98,19 @@ pub enum Quantity {
     VectorIrradiance,
     /// A direction: angle between the two in radians, and a length of 1. With `sign_free`, both signs are right.
     UnitVector { sign_free: bool },
+    /// Whatever has a property together with the inputs and other results, such as a basis of a plane: absolute, the
+    /// largest residual of what must hold, by [`Problem::residual`]. The oracle's values are one right answer of many, and
+    /// its sensitivity is the residual that a change of the inputs alone makes of them.
+    Property,
 }
 
-/// What must hold between results, whatever the truth.
+/// What must hold of several results together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
     /// Two unit vectors, by position among the outputs, are orthogonal.
     Orthogonal(usize, usize),
+    /// Two corners of a box, by position among the outputs, enclose the exact box that lies between their truths.
+    Encloses { min: usize, max: usize },
 }
 
 /// A named distribution of configurations.
@@ -136,6 +155,7 @@ pub struct Truth {
     values: [f64; MAX_COMPONENTS],
     sensitivities: [f64; MAX_OUTPUTS],
     worst_bound: f64,
+    margin: f64,
     escalated: bool,
 }
 
@@ -152,6 +172,7 @@ impl Truth {
             values: [0.0; MAX_COMPONENTS],
             sensitivities: [0.0; MAX_OUTPUTS],
             worst_bound: 0.0,
+            margin: f64::INFINITY,
             escalated: false,
         }
     }
@@ -159,6 +180,7 @@ impl Truth {
     /// Forgets the last configuration.
     pub fn clear(&mut self) {
         self.worst_bound = 0.0;
+        self.margin = f64::INFINITY;
         self.escalated = false;
     }
 
@@ -191,6 +213,17 @@ impl Truth {
         if sensitivity.is_finite() {
             self.worst_bound = self.worst_bound.max(bound / UNIT_ROUNDOFF);
         }
+    }
+
+    /// Sets how far the configuration is from the other class, a hit from a miss: the least relative change of every
+    /// input (to first order, in the worst direction) that turns one into the other. Infinite unless set.
+    pub fn set_margin(&mut self, margin: f64) {
+        self.margin = margin;
+    }
+
+    /// The least relative change of every input that turns a hit into a miss or a miss into a hit.
+    pub fn margin(&self) -> f64 {
+        self.margin
     }
 
     /// Notes that plain f64 did not do.

@@ -78,7 +78,7 @@ pub struct Family {
 pub struct Output {
     pub name: String,
     /// How its error is measured: `magnitude` and `scalar` (relative), `unit_vector` (radians), `irradiance` and
-    /// `vector_irradiance` (absolute, the full hemisphere being 1).
+    /// `vector_irradiance` (absolute, the full hemisphere being 1), `property` (the largest residual of what must hold).
     pub quantity: String,
     pub tolerance: f64,
     pub headline: bool,
@@ -194,10 +194,11 @@ pub struct Rate {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OutputAudit {
     pub name: String,
-    /// Error beyond the tolerance or not finite, whoever is to blame.
+    /// Error beyond the tolerance, not finite, or not to be had because only one of truth and variant is a miss; whoever
+    /// is to blame.
     pub beyond: Rate,
     pub visible: Visible,
-    /// In the quantity's own measure.
+    /// In the quantity's own measure; of the configurations where neither truth nor variant is a miss, as all that follow.
     pub error: Distribution,
     /// Units of the f32 spacing at the unrounded truth.
     pub ulp: Distribution,
