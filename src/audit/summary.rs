@@ -152,7 +152,7 @@ impl Summary {
         }
 
         self.configurations += 1;
-        self.bits.add(row.index, &values[..start]);
+        self.bits.add(row.index, values);
         self.verdicts[verdict as usize] += 1;
         for (bins, bin) in self.landmarks.iter_mut().zip(row.bins) {
             let bin = &mut bins[usize::from(*bin)];
