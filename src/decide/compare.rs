@@ -149,7 +149,8 @@ pub fn compare(a: &Recorded, b: &Recorded, tolerances: Tolerances) -> Comparison
     };
     let all_times: Vec<_> = pairs.iter().flat_map(|(_, cells)| timed(*cells)).collect();
     // A software device shares its machine with everything else, so only what differs from the rest is a variant's.
-    let software = [&a.run, &b.run].iter().any(|run| run.device.kind == "cpu");
+    // Between two devices there is nothing to take out.
+    let software = a.run.device.kind == "cpu" && a.run.device.name == b.run.device.name;
     let ratios = all_times.iter().map(|[a, b]| b.ns.median / a.ns.median).collect();
     let common = if software { time::common(ratios) } else { None };
     let comparisons = pairs.len() + all_times.len();

@@ -208,7 +208,7 @@ fn candidate(
     }
     let (worst_failed, worst_non_finite, worst_error) = (worst_failed?, worst_non_finite?, worst_error?);
     if constraints.no_non_finite && worst_non_finite.value.count > 0 {
-        breaks.push(format!("NaN or infinite: {}", told(&worst_non_finite)));
+        breaks.push(format!("is NaN or infinite in {}", told(&worst_non_finite)));
     }
     if let Some(limit) = constraints.max_failed.filter(|limit| worst_failed.value.rate > *limit) {
         breaks.push(format!("fails more than {limit:e}: {}", told(&worst_failed)));
@@ -322,7 +322,7 @@ fn lost(other: &Candidate, chosen: &Candidate, found: bool, noise: f64) -> Strin
     debug_assert!(found, "what breaks nothing comes before what breaks something");
     let mut lacks = Vec::new();
     if other.worst_non_finite.value.count > chosen.worst_non_finite.value.count {
-        lacks.push(format!("NaN or infinite: {}", told(&other.worst_non_finite)));
+        lacks.push(format!("is NaN or infinite in {}", told(&other.worst_non_finite)));
     }
     if fewer(&chosen.failed, &other.failed) {
         lacks.push(format!(
@@ -340,10 +340,10 @@ fn lost(other: &Candidate, chosen: &Candidate, found: bool, noise: f64) -> Strin
     }
     let error = [other, chosen].map(|candidate| candidate.worst_error.value.error);
     if lacks.is_empty() && error[0] > error[1] {
-        lacks.push(format!("largest error {:.1e} against {:.1e}", error[0], error[1]));
+        lacks.push(format!("has a largest error of {:.1e} against {:.1e}", error[0], error[1]));
     }
     if lacks.is_empty() {
-        lacks.push("no better in failures, time or error, within the noise".to_owned());
+        lacks.push("is no better in failures, time or error, within the noise".to_owned());
     }
     lacks.join("; ")
 }
@@ -381,7 +381,10 @@ fn reason(
         }
     };
     let on = if devices == 1 { "1 device".to_owned() } else { format!("{devices} devices") };
-    format!("{variant}: {place}; {finite}; {failures}; {} scenarios on {on}", scenarios.len())
+    let runner_up = candidates.get(1).filter(|other| other.breaks.is_empty());
+    let runner_up = runner_up
+        .map_or_else(String::new, |other| format!(". Runner-up: {}, which {}", other.variant, other.lost));
+    format!("{variant}: {place}; {finite}; {failures}; {} scenarios on {on}{runner_up}", scenarios.len())
 }
 
 #[cfg(test)]
@@ -410,7 +413,7 @@ mod tests {
         let front = |name: &str| choice.candidates.iter().find(|c| c.variant == name).unwrap().on_front;
         assert_eq!(["exact", "close", "rough", "slow", "nan"].map(front), [true, true, true, false, true]);
         let lost = |name: &str| choice.candidates.iter().find(|c| c.variant == name).unwrap().lost.clone();
-        assert!(lost("nan").contains("NaN or infinite: 20.000 %"), "{}", lost("nan"));
+        assert!(lost("nan").contains("is NaN or infinite in 20.000 %"), "{}", lost("nan"));
         assert!(lost("slow").contains("3.33 times"), "{}", lost("slow"));
     }
 

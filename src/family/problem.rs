@@ -189,7 +189,7 @@ impl Truth {
     pub fn scalar(&mut self, output: usize, value: f64, bound: f64, sensitivity: f64) {
         self.values[self.offset(output)] = value;
         self.sensitivities[output] = sensitivity;
-        self.worst_bound = self.worst_bound.max(bound / f32_spacing(value));
+        self.certify(value, bound / f32_spacing(value));
     }
 
     /// Sets a vector that has a length. `bound` is the absolute error bound of `value` as the distance of the two, counted
@@ -200,7 +200,7 @@ impl Truth {
         self.values[offset..offset + 3].copy_from_slice(&value.to_array());
         self.sensitivities[output] = sensitivity;
         if sensitivity.is_finite() {
-            self.worst_bound = self.worst_bound.max(bound / f32_spacing(value.length()));
+            self.certify(value.length(), bound / f32_spacing(value.length()));
         }
     }
 
@@ -211,8 +211,14 @@ impl Truth {
         self.values[offset..offset + 3].copy_from_slice(&value.to_array());
         self.sensitivities[output] = sensitivity;
         if sensitivity.is_finite() {
-            self.worst_bound = self.worst_bound.max(bound / UNIT_ROUNDOFF);
+            self.certify(value.length(), bound / UNIT_ROUNDOFF);
         }
+    }
+
+    /// A value or a bound that is not a number certifies nothing.
+    fn certify(&mut self, value: f64, bound: f64) {
+        let bound = if value.is_nan() || bound.is_nan() { f64::INFINITY } else { bound };
+        self.worst_bound = self.worst_bound.max(bound);
     }
 
     /// Sets how far the configuration is from the other class, a hit from a miss: the least relative change of every
@@ -263,3 +269,22 @@ impl Truth {
 
 /// An oracle is certified where its bound is at most this much of the f32 spacing.
 pub const CERTIFIED: f64 = 1.0 / 16.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `f64::max` would drop NaN silently.
+    #[test]
+    fn what_is_not_a_number_is_not_certified() {
+        const OUTPUTS: [Output; 1] = [Output::new("x", Type::Float, Quantity::Scalar, 1e-3)];
+        let bound = |value, bound| {
+            let mut truth = Truth::new(&OUTPUTS);
+            truth.scalar(0, value, bound, 1.0);
+            truth.worst_bound()
+        };
+        assert!(bound(1.0, 1e-12) <= CERTIFIED);
+        assert!(bound(f64::NAN, 0.0) > CERTIFIED);
+        assert!(bound(1.0, f64::NAN) > CERTIFIED);
+    }
+}

@@ -142,7 +142,8 @@ fn bits(row: &Row) -> String {
     match row.bits {
         None => String::new(),
         Some(bits) if bits.identical() => "0".to_owned(),
-        Some(bits) if bits.differing < 100.0 => format!("about {:.0}", bits.differing),
+        Some(bits) if bits.differing < 1000.0 => format!("about {:.0}", bits.differing),
+        // The estimate is good to a fifth.
         Some(bits) => format!("about {:.1} %", 100.0 * bits.differing / bits.configurations as f64),
     }
 }
