@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::fingerprint::row_hash;
 use super::summary::Row;
 use crate::family::{CERTIFIED, Problem, Scenario, Truth};
 use crate::sample::Stream;
@@ -112,6 +113,13 @@ impl Chunk {
     /// Row-major inputs.
     pub fn inputs(&self) -> &[f32] {
         &self.inputs
+    }
+
+    /// A sum over hashes of (index, inputs), which merges by wrapping addition: equal sums, the same configurations.
+    pub fn digest(&self) -> u64 {
+        let row = |(row, input)| row_hash(self.first + row as u64, input);
+        let rows = self.inputs.par_chunks_exact(self.widths.inputs).with_min_len(BLOCK).enumerate();
+        rows.map(row).reduce(|| 0, u64::wrapping_add)
     }
 
     /// The exact components of one configuration, in column order.

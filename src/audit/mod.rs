@@ -3,6 +3,7 @@
 mod chunk;
 mod engine;
 mod failures;
+mod fingerprint;
 mod histogram;
 mod judge;
 mod summary;
@@ -11,6 +12,7 @@ mod verdict;
 pub use chunk::{Chunk, MAX_CHUNK, OracleSummary};
 pub use engine::{Audited, Plan, Stopped, audit, judge};
 pub use failures::{Failure, Failures};
+pub use fingerprint::Fingerprint;
 pub use histogram::Histogram;
 pub use judge::{EXPLAINED_BY_ROUNDING, Measure, measure};
 pub use summary::{Bin, OutputSummary, Summary, Worst};

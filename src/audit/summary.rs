@@ -3,7 +3,7 @@
 
 use super::failures::{Failure, Failures};
 use super::judge::Measure;
-use super::{Histogram, Verdict, judge};
+use super::{Fingerprint, Histogram, Verdict, judge};
 use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem, Quantity};
 
 /// One variant on one scenario.
@@ -16,6 +16,8 @@ pub struct Summary {
     /// One a landmark coordinate, one a bin.
     pub landmarks: Vec<Vec<Bin>>,
     pub failures: Failures,
+    /// Of all outputs.
+    pub bits: Fingerprint,
 }
 
 /// One output of one variant on one scenario.
@@ -83,6 +85,7 @@ impl Summary {
             outputs: vec![OutputSummary::default(); problem.outputs().len()],
             landmarks: problem.landmarks().iter().map(|l| vec![bin.clone(); l.edges.len() + 1]).collect(),
             failures: Failures::new(max_failures),
+            bits: Fingerprint::default(),
         }
     }
 
@@ -149,6 +152,7 @@ impl Summary {
         }
 
         self.configurations += 1;
+        self.bits.add(row.index, values);
         self.verdicts[verdict as usize] += 1;
         for (bins, bin) in self.landmarks.iter_mut().zip(row.bins) {
             let bin = &mut bins[usize::from(*bin)];
@@ -182,6 +186,7 @@ impl Summary {
             add(&mut mine.beyond, &theirs.beyond);
         }
         self.failures.merge(other.failures);
+        self.bits.merge(&other.bits);
     }
 
     /// Configurations with this verdict.

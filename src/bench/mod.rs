@@ -2,6 +2,10 @@
 
 mod statistics;
 mod streaming;
+mod timing;
 
 pub use statistics::{Quartiles, rate_interval};
-pub use streaming::{CONFIGURATIONS, Effort, Timing, streaming};
+pub use streaming::{CONFIGURATIONS, Effort, streaming};
+pub use timing::{
+    Bound, Ceiling, Ceilings, Coherence, Rank, Ranking, Ratio, Regime, Setting, Share, Stop, Timing,
+};

@@ -6,9 +6,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use serde::{Deserialize, Serialize};
-
-use super::Quartiles;
+use super::{Quartiles, Setting, Timing};
 use crate::audit::Stopped;
 use crate::device::{Clock, Device, Outputs};
 
@@ -43,19 +41,6 @@ pub const CONFIGURATIONS: u64 = 1 << 18;
 const MIN_SAMPLE: Duration = Duration::from_millis(2);
 /// So many submissions a sample at most.
 const MAX_REPEATS: usize = 64;
-
-/// Time of one variant.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Timing {
-    /// Nanoseconds a configuration.
-    pub ns: Quartiles,
-    pub clock: Clock,
-    /// Samples taken, interleaved with the other variants'.
-    pub rounds: usize,
-    /// Configurations a submission, and submissions a sample.
-    pub configurations: usize,
-    pub repeats: usize,
-}
 
 /// Times `programs` on the same inputs. `advance` hears of each finished sample.
 pub fn streaming<D: Device>(
@@ -114,7 +99,19 @@ pub fn streaming<D: Device>(
     }
     let timing = |(samples, repeats): (Vec<f64>, usize)| {
         let ns = Quartiles::of(&samples)?;
-        Some(Timing { ns, clock, rounds: samples.len(), configurations, repeats })
+        Some(Timing {
+            setting: Setting::STREAMING,
+            ns,
+            clock,
+            rounds: samples.len(),
+            configurations,
+            repeats,
+            evaluations: 1,
+            ratio: None,
+            rank: None,
+            share: None,
+            bound: None,
+        })
     };
     Ok(samples.into_iter().zip(repeats).filter_map(timing).collect())
 }

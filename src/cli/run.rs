@@ -16,7 +16,7 @@ use crate::bench::{self, Effort};
 use crate::catalog::{self, Catalog, Compiled};
 use crate::device::{self, Device, vulkan::VulkanDevice};
 use crate::family::Scenario;
-use crate::record::{self, FailureGroup, Folder};
+use crate::record::{self, Evidence, Folder};
 use crate::report;
 
 /// Which halves of a run a verb does.
@@ -105,13 +105,13 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         .into_iter()
         .map(|selected| prepare(selected, &machine.device))
         .collect::<Result<Vec<_>>>()?;
-    let mut groups = Vec::new();
+    let mut evidence = Vec::new();
     for family in &mut families {
         let scenarios = selection::scenarios(family.selected.problem, &arguments.scenario);
         for (position, scenario) in scenarios.into_iter().enumerate() {
             // Streaming times hardly depend on the configurations: one scenario tells them.
             let halves = if halves == Halves::Both && position > 0 { Halves::Audit } else { halves };
-            measure(family, scenario, &machine.device, arguments, halves, stop, &mut groups)?;
+            measure(family, scenario, &machine.device, arguments, halves, stop, &mut evidence)?;
         }
     }
     machine.check_validation()?;
@@ -134,9 +134,10 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
             chunk: arguments.chunk.min(MAX_CHUNK as u64) as usize,
             max_failures: arguments.max_failures,
         },
+        ceilings: None,
         families: families.into_iter().map(|family| family.record).collect(),
     };
-    let folder = folder.finish(&run, &groups)?;
+    let folder = folder.finish(&run, &evidence)?;
     super::print(&report::run(&run, super::colour()))?;
     eprintln!("run folder: {} ({:.0} s)", folder.display(), run.seconds);
     Ok(())
@@ -191,7 +192,7 @@ fn measure(
     arguments: &Arguments,
     halves: Halves,
     stop: &AtomicBool,
-    groups: &mut Vec<FailureGroup>,
+    evidence: &mut Vec<Evidence>,
 ) -> Result<()> {
     let problem = family.selected.problem;
     let label = format!("{}/{}", problem.name(), scenario.name);
@@ -206,9 +207,14 @@ fn measure(
     let mut results: Vec<record::Result> = family
         .programs
         .iter()
-        .map(|_| record::Result { scenario: scenario.name.to_owned(), audit: None, timing: None })
+        .map(|_| record::Result {
+            scenario: scenario.name.to_owned(),
+            audit: None,
+            timing: None,
+            arithmetic: Vec::new(),
+        })
         .collect();
-    let mut oracle = None;
+    let (mut oracle, mut digest) = (None, None);
 
     if halves != Halves::Bench {
         let total = arguments.configurations * family.programs.len() as u64;
@@ -216,13 +222,15 @@ fn measure(
         let audited = audit::audit(device, &family.programs, &plan, &|count| bar.inc(count), stop)?;
         bar.finish_and_clear();
         oracle = Some(audited.oracle.into());
+        digest = Some(format!("{:016x}", audited.inputs));
         for ((result, summary), place) in results.iter_mut().zip(&audited.summaries).zip(&family.places) {
             result.audit = Some(record::audit(problem, summary));
-            groups.push(FailureGroup {
+            evidence.push(Evidence {
                 family: problem.name(),
                 variant: family.record.variants[*place].name.clone(),
                 scenario: scenario.name,
                 failures: summary.failures.sorted().into_iter().cloned().collect(),
+                bits: summary.bits.clone(),
             });
         }
     }
@@ -249,7 +257,9 @@ fn measure(
     family.record.scenarios.push(record::Scenario {
         name: scenario.name.to_owned(),
         summary: scenario.summary.to_owned(),
+        inputs: digest,
         oracle,
+        rankings: Vec::new(),
     });
     eprintln!("done: {label}");
     Ok(())
