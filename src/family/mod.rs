@@ -11,6 +11,7 @@ mod ltc_line;
 mod ltc_polygon;
 mod ltc_sphere;
 mod ltc_strip;
+mod orthonormal_basis;
 mod problem;
 mod sym3_eigen;
 
@@ -31,6 +32,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &ltc_polygon::LtcPolygon,
     &ltc_sphere::LtcSphere,
     &ltc_strip::LtcStrip,
+    &orthonormal_basis::OrthonormalBasis,
     &sym3_eigen::Sym3Eigen,
 ];
 
