@@ -16,9 +16,9 @@ pub enum Verdict {
     NotOrthogonal,
     /// A direction whose length is not 1.
     NotUnit,
-    /// A value of the wrong sign, such as a negative length.
+    /// A value of the wrong sign, such as a negative length or solid angle.
     WrongSign,
-    /// A share of the whole that is negative or above all there is.
+    /// A share of the whole that is negative or above all there is; a solid angle above 4 pi.
     OutOfRange,
     /// NaN or infinite where the truth is a finite f32.
     NonFinite,

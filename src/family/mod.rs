@@ -1,6 +1,7 @@
 //! The problems: one file each, and the slice that lists them.
 
 mod cone_axes;
+mod disk_solid_angle;
 mod edge_integral;
 mod ellipse_axes;
 mod horizon_sphere;
@@ -21,6 +22,7 @@ pub use problem::{
 /// Every family, sorted by name.
 pub static FAMILIES: &[&dyn Problem] = &[
     &cone_axes::ConeAxes,
+    &disk_solid_angle::DiskSolidAngle,
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
     &horizon_sphere::HorizonSphere,
