@@ -5,6 +5,7 @@ mod disk_solid_angle;
 mod edge_integral;
 mod ellipse_axes;
 mod horizon_sphere;
+mod latlong_solid_angle;
 mod ltc_cylinder;
 mod ltc_disk;
 mod ltc_ellipsoid;
@@ -26,6 +27,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
     &horizon_sphere::HorizonSphere,
+    &latlong_solid_angle::LatlongSolidAngle,
     &ltc_cylinder::LtcCylinder,
     &ltc_disk::LtcDisk,
     &ltc_ellipsoid::LtcEllipsoid,
