@@ -1,7 +1,6 @@
 /*---
 summary = "2 cos(m) sin(w) (lon1 - lon0) with m, w half the sum and half the difference of the latitudes: nothing cancels"
 source  = "The sum-to-product identity"
-tried   = "sin by a polynomial on the whole range instead of the device's: costs as much again, and lavapipe's sin is within 1e-7"
 
 [[variant]]
 name = "product"

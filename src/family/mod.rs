@@ -13,6 +13,7 @@ mod ltc_line;
 mod ltc_polygon;
 mod ltc_sphere;
 mod ltc_strip;
+mod pixel_cube;
 mod problem;
 mod sym3_eigen;
 
@@ -35,6 +36,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &ltc_polygon::LtcPolygon,
     &ltc_sphere::LtcSphere,
     &ltc_strip::LtcStrip,
+    &pixel_cube::PixelCube,
     &sym3_eigen::Sym3Eigen,
 ];
 

@@ -11,6 +11,7 @@ pub mod exact;
 pub mod exact3;
 pub mod gauss_legendre;
 pub mod line_integral;
+pub mod plane_rectangle;
 pub mod polygon_irradiance;
 pub mod products;
 pub mod spacing;
