@@ -14,6 +14,7 @@ mod ltc_polygon;
 mod ltc_sphere;
 mod ltc_strip;
 mod pixel_cube;
+mod pixel_ortho;
 mod problem;
 mod sym3_eigen;
 
@@ -37,6 +38,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &ltc_sphere::LtcSphere,
     &ltc_strip::LtcStrip,
     &pixel_cube::PixelCube,
+    &pixel_ortho::PixelOrtho,
     &sym3_eigen::Sym3Eigen,
 ];
 

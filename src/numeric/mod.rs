@@ -6,6 +6,7 @@ pub mod clipped_ellipse;
 pub mod clipped_sphere;
 pub mod cubic;
 pub mod cylinder_silhouette;
+pub mod disk_rectangle;
 pub mod double_double;
 pub mod exact;
 pub mod exact3;
