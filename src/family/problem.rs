@@ -96,6 +96,12 @@ pub enum Quantity {
     Irradiance,
     /// A vector of irradiances, such as one edge's contribution: absolute error, as the distance of the two.
     VectorIrradiance,
+    /// A solid angle in steradians: relative error, within 0..4 pi.
+    SolidAngle,
+    /// A vector that has a length, such as a centre or a semi-axis: distance of the two over the truth's length. With
+    /// `sign_free`, both signs are right. Where the sensitivity is infinite only the direction is undefined, and the
+    /// lengths are compared.
+    Vector { sign_free: bool },
     /// A direction: angle between the two in radians, and a length of 1. With `sign_free`, both signs are right.
     UnitVector { sign_free: bool },
     /// Whatever has a property together with the inputs and other results, such as a basis of a plane: absolute, the

@@ -175,7 +175,7 @@ fn graded(rate: &Rate) -> Cell {
 
 fn tolerance(tolerance: f64, quantity: &str) -> String {
     match quantity {
-        "magnitude" | "scalar" => format!("{} %", 100.0 * tolerance),
+        "magnitude" | "scalar" | "solid_angle" | "vector" => format!("{} %", 100.0 * tolerance),
         "unit_vector" => format!("{} mrad", 1e3 * tolerance),
         _ => format!("{tolerance}"),
     }
