@@ -2,6 +2,7 @@
 
 mod chunk;
 mod engine;
+mod extremes;
 mod failures;
 mod histogram;
 mod judge;
@@ -10,6 +11,7 @@ mod verdict;
 
 pub use chunk::{Chunk, MAX_CHUNK, OracleSummary};
 pub use engine::{Audited, Plan, Stopped, audit, judge};
+pub use extremes::{Extremes, Specimen};
 pub use failures::{Failure, Failures};
 pub use histogram::Histogram;
 pub use judge::{EXPLAINED_BY_ROUNDING, Measure, measure};

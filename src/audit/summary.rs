@@ -1,10 +1,11 @@
 //! What an audit keeps of millions of comparisons. Everything in it merges by integer addition or by a maximum with a
 //! fixed rule for ties, so that neither threads nor chunks nor their order show.
 
+use super::extremes::Extremes;
 use super::failures::{Failure, Failures};
 use super::judge::Measure;
 use super::{Histogram, Verdict, judge};
-use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem};
+use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem, Quantity};
 
 /// One variant on one scenario.
 #[derive(Clone, Debug)]
@@ -29,6 +30,8 @@ pub struct OutputSummary {
     pub ulp: Histogram,
     pub conditioned: Histogram,
     pub worst: Worst,
+    /// Only of builtins.
+    pub extremes: Extremes,
 }
 
 /// The worst finite error and its configuration; the smallest index among equals.
@@ -93,13 +96,16 @@ impl Summary {
             let components = start..start + output.field.ty.components();
             starts[position] = start;
             start = components.end;
-            let measure = judge::measure(
-                output,
-                &values[components.clone()],
-                &row.truth[components],
-                row.sensitivities[position],
-            );
+            let (value, truth) = (&values[components.clone()], &row.truth[components]);
+            let sensitivity = row.sensitivities[position];
+            let measure = judge::measure(output, value, truth, sensitivity);
             verdict = verdict.max(measure.verdict);
+            if output.quantity == Quantity::Builtin {
+                self.outputs[position].extremes.add(&measure, row, value, truth, sensitivity);
+                if measure.verdict == Verdict::Unspecified {
+                    continue;
+                }
+            }
             (errors[position], ulps[position]) = (measure.error, measure.ulp);
             self.outputs[position].add(&measure, output.tolerance, row.index);
         }
@@ -179,6 +185,7 @@ impl OutputSummary {
         self.error.merge(&other.error);
         self.ulp.merge(&other.ulp);
         self.conditioned.merge(&other.conditioned);
+        self.extremes.merge(&other.extremes);
         if let Some((error, index)) = other.worst.found {
             self.worst.offer(error, other.worst.ulp, index);
         }

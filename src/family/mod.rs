@@ -1,9 +1,19 @@
 //! The problems: one file each, and the slice that lists them.
 
+mod acos;
+mod asin;
+mod atan;
+mod builtin;
 mod cone_axes;
+mod cos;
 mod edge_integral;
 mod ellipse_axes;
+mod exp;
+mod exp2;
 mod horizon_sphere;
+mod inversesqrt;
+mod log;
+mod log2;
 mod ltc_cylinder;
 mod ltc_disk;
 mod ltc_ellipsoid;
@@ -12,7 +22,10 @@ mod ltc_polygon;
 mod ltc_sphere;
 mod ltc_strip;
 mod problem;
+mod sin;
+mod sqrt;
 mod sym3_eigen;
+mod tan;
 
 pub use problem::{
     CERTIFIED, Landmark, MAX_COMPONENTS, MAX_OUTPUTS, Output, Problem, Quantity, Relation, Scenario, Truth,
@@ -20,10 +33,19 @@ pub use problem::{
 
 /// Every family, sorted by name.
 pub static FAMILIES: &[&dyn Problem] = &[
+    &acos::ACOS,
+    &asin::ASIN,
+    &atan::ATAN,
     &cone_axes::ConeAxes,
+    &cos::COS,
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
+    &exp::EXP,
+    &exp2::EXP2,
     &horizon_sphere::HorizonSphere,
+    &inversesqrt::INVERSESQRT,
+    &log::LOG,
+    &log2::LOG2,
     &ltc_cylinder::LtcCylinder,
     &ltc_disk::LtcDisk,
     &ltc_ellipsoid::LtcEllipsoid,
@@ -31,7 +53,10 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &ltc_polygon::LtcPolygon,
     &ltc_sphere::LtcSphere,
     &ltc_strip::LtcStrip,
+    &sin::SIN,
+    &sqrt::SQRT,
     &sym3_eigen::Sym3Eigen,
+    &tan::TAN,
 ];
 
 /// The family of that name.

@@ -115,6 +115,7 @@ fn quantity(quantity: Quantity) -> &'static str {
         Quantity::Irradiance => "irradiance",
         Quantity::VectorIrradiance => "vector_irradiance",
         Quantity::UnitVector { .. } => "unit_vector",
+        Quantity::Builtin => "builtin",
     }
 }
 
