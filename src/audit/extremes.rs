@@ -1,24 +1,32 @@
 //! The worst configurations of a builtin, kept whole: a driver's accuracy is a number and the input that shows it.
 
+use serde::{Deserialize, Serialize};
+
+use super::exact_bits;
 use super::judge::Measure;
 use super::summary::Row;
 
 /// One configuration and what came of it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Specimen {
     /// What it is the worst by.
+    #[serde(with = "exact_bits")]
     pub size: f64,
     pub index: u64,
+    #[serde(with = "exact_bits")]
     pub inputs: Vec<f32>,
     /// Components of the one output.
+    #[serde(with = "exact_bits")]
     pub output: Vec<f32>,
+    #[serde(with = "exact_bits")]
     pub truth: Vec<f64>,
     /// The permitted error.
+    #[serde(with = "exact_bits")]
     pub limit: f64,
 }
 
 /// The worst finite errors of one output; the smallest index among equals.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
     /// By units in the last place, where the specification promises anything.
     pub ulp: Option<Specimen>,

@@ -1,6 +1,9 @@
 //! What an audit keeps of millions of comparisons. Everything in it merges by integer addition or by a maximum with a
 //! fixed rule for ties, so that neither threads nor chunks nor their order show.
 
+use serde::{Deserialize, Serialize};
+
+use super::exact_bits;
 use super::extremes::Extremes;
 use super::failures::{Failure, Failures};
 use super::judge::Measure;
@@ -8,7 +11,7 @@ use super::{Histogram, Verdict, judge};
 use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem, Quantity};
 
 /// One variant on one scenario.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Summary {
     pub configurations: u64,
     /// By position in [`Verdict::ALL`].
@@ -20,7 +23,7 @@ pub struct Summary {
 }
 
 /// One output of one variant on one scenario.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct OutputSummary {
     /// Configurations whose error is beyond the output's tolerance or not finite, whoever is to blame.
     pub beyond: u64,
@@ -35,14 +38,16 @@ pub struct OutputSummary {
 }
 
 /// The worst finite error and its configuration; the smallest index among equals.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Worst {
+    #[serde(with = "exact_bits")]
     pub found: Option<(f64, u64)>,
+    #[serde(with = "exact_bits")]
     pub ulp: f64,
 }
 
 /// What happened in one bin of a landmark coordinate.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Bin {
     pub verdicts: [u64; Verdict::ALL.len()],
     /// One an output, as [`OutputSummary::beyond`].

@@ -13,8 +13,8 @@ use std::path::PathBuf;
 pub use folder::{Folder, default_path};
 pub use number::parse_f32;
 pub use schema::{
-    Audit, Bin, Buckets, Distribution, Family, Host, Landmark, Oracle, Output, OutputAudit, Program, Rate,
-    Result, Run, SCHEMA, Scenario, Settings, Variant, Visible, Worst,
+    Audit, Bin, Buckets, Distribution, Extremes, Family, Host, Landmark, Oracle, Output, OutputAudit,
+    Program, Rate, Result, Run, SCHEMA, Scenario, Settings, Specimen, Variant, Visible, Worst,
 };
 pub use summarize::{audit, family};
 
