@@ -94,10 +94,10 @@ pub(super) fn audit(
         .collect::<Result<Vec<_>>>()?;
     let job = job(&facts, &families, &range, arguments);
     let mut journal = Journal::open(&target, &job, arguments.force)?;
-    if journal.finished() > 0 {
-        eprintln!("going on after {} parts", journal.finished());
-    }
     let parts = families.len() as u64 * job::parts(&range);
+    if journal.finished() > 0 {
+        eprintln!("going on after {} of {parts} parts", journal.finished());
+    }
     let mut groups = Vec::new();
     for family in &mut families {
         let sweep = Sweep {

@@ -185,6 +185,11 @@ pub(super) fn near(draw: &mut Draw, ends: &[f32]) -> f32 {
     if pick == 0 { general } else { sign * landmarks::neighbour(end, offset) }
 }
 
+/// Of either sign, its magnitude log-uniform within `exponent` powers of two either side of 1.
+pub(super) fn spread_exponents(draw: &mut Draw, exponent: f64) -> f32 {
+    (draw.sign() * libm::exp2(draw.uniform(-exponent, exponent))) as f32
+}
+
 /// Uniform in `low..high` or, as often, of either sign with a log-uniform magnitude up to the larger end.
 pub(super) fn spread(draw: &mut Draw, low: f64, high: f64) -> f32 {
     let uniform = draw.uniform(low, high);
@@ -218,10 +223,11 @@ pub(super) mod tests {
         }
     }
 
-    /// The truth of a function of one variable is that of another library, within the bounds of both.
-    pub(in crate::family) fn agrees_with(problem: &dyn Problem, function: fn(f64) -> f64) {
+    /// The truth, of a vector its first component, is that of another library, within the bounds of both.
+    pub(in crate::family) fn agrees_with(problem: &dyn Problem, function: fn(&[f64]) -> f64) {
         each(problem, 20_000, |row, truth| {
-            let (ours, theirs) = (truth.output(0)[0], function(f64::from(row[0])));
+            let exact: Vec<f64> = row.iter().map(|value| f64::from(*value)).collect();
+            let (ours, theirs) = (truth.output(0)[0], function(&exact).clamp(-f64::MAX, f64::MAX));
             let same = (ours - theirs).abs() <= 2.0 * BOUND * theirs.abs();
             assert!(same || (ours.is_nan() && theirs.is_nan()), "{row:?}: {ours:e} {theirs:e}");
         });

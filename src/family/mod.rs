@@ -3,15 +3,19 @@
 mod acos;
 mod asin;
 mod atan;
+mod atan2;
 mod builtin;
 mod cone_axes;
 mod cos;
+mod div;
 mod edge_integral;
 mod ellipse_axes;
 mod exp;
 mod exp2;
+mod fma;
 mod horizon_sphere;
 mod inversesqrt;
+mod length;
 mod log;
 mod log2;
 mod ltc_cylinder;
@@ -21,6 +25,8 @@ mod ltc_line;
 mod ltc_polygon;
 mod ltc_sphere;
 mod ltc_strip;
+mod normalize;
+mod pow;
 mod problem;
 mod sin;
 mod sqrt;
@@ -36,14 +42,18 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &acos::ACOS,
     &asin::ASIN,
     &atan::ATAN,
+    &atan2::ATAN2,
     &cone_axes::ConeAxes,
     &cos::COS,
+    &div::DIV,
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
     &exp::EXP,
     &exp2::EXP2,
+    &fma::FMA,
     &horizon_sphere::HorizonSphere,
     &inversesqrt::INVERSESQRT,
+    &length::LENGTH,
     &log::LOG,
     &log2::LOG2,
     &ltc_cylinder::LtcCylinder,
@@ -53,6 +63,8 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &ltc_polygon::LtcPolygon,
     &ltc_sphere::LtcSphere,
     &ltc_strip::LtcStrip,
+    &normalize::NORMALIZE,
+    &pow::POW,
     &sin::SIN,
     &sqrt::SQRT,
     &sym3_eigen::Sym3Eigen,
