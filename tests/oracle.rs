@@ -111,6 +111,14 @@ fn check(problem: &dyn Problem) -> usize {
                     let allowed = scalar_tolerance(family, name, row) * expected[0].abs();
                     assert!(error <= allowed, "{place}: {name} {} for {}", got[0], expected[0]);
                 }
+                // Of all components together: the limit is one of lengths.
+                Quantity::Builtin => {
+                    let size = expected.iter().map(|c| c * c).sum::<f64>().sqrt();
+                    for (got, expected) in got.iter().zip(&expected) {
+                        let error = (got - expected).abs();
+                        assert!(error <= SCALAR * size, "{place}: {name} {got} for {expected}");
+                    }
+                }
                 Quantity::VectorIrradiance => {
                     let (got, expected) = (glam::DVec3::from_slice(got), glam::DVec3::from_slice(&expected));
                     let error = (got - expected).length();

@@ -2,7 +2,7 @@
 //!
 //! Permitted: as atan2(sqrt(1 - x^2), x), so nothing at +-1, where the root is of 0; undefined beyond.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, X, any, near, spread};
+use super::builtin::{AXIS, Builtin, Promise, X, Y, any, near, spread};
 use super::problem::Scenario;
 use crate::numeric::vulkan_limits::{Interval, atan2, product, sqrt, sum};
 use crate::sample::Draw;
@@ -12,7 +12,7 @@ pub(super) static ACOS: Builtin = Builtin {
     function: "builtin_acos",
     summary: "The device's acos: as atan2(sqrt(1 - x x), x)",
     inputs: X,
-    outputs: SCALAR,
+    outputs: Y,
     scenarios: &[
         Scenario {
             name: "domain",

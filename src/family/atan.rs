@@ -2,7 +2,7 @@
 //!
 //! Permitted: 4096 ULP.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, X, any, near};
+use super::builtin::{AXIS, Builtin, Promise, X, Y, any, near};
 use super::problem::Scenario;
 use crate::numeric::vulkan_limits;
 
@@ -11,7 +11,7 @@ pub(super) static ATAN: Builtin = Builtin {
     function: "builtin_atan",
     summary: "The device's atan: 4096 ULP",
     inputs: X,
-    outputs: SCALAR,
+    outputs: Y,
     scenarios: &[
         Scenario {
             name: "domain",

@@ -3,7 +3,7 @@
 //! Permitted: 4096 ULP; undefined at the origin. On the negative x axis the sign of a zero y, which a device may ignore, and
 //! that of a subnormal, which it may flush, choose between pi and -pi: nothing is promised there.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, any, near, spread_exponents};
+use super::builtin::{AXIS, Builtin, Promise, R, any, near, spread_exponents};
 use super::problem::Scenario;
 use crate::catalog::{Field, Type};
 use crate::numeric::vulkan_limits::{self, Interval};
@@ -13,7 +13,7 @@ pub(super) static ATAN2: Builtin = Builtin {
     function: "builtin_atan2",
     summary: "The device's atan(y, x): 4096 ULP",
     inputs: &[Field::new("y", Type::Float), Field::new("x", Type::Float)],
-    outputs: SCALAR,
+    outputs: R,
     scenarios: &[
         Scenario {
             name: "strata",

@@ -59,8 +59,10 @@ pub(super) struct Builtin {
 
 /// The input of a function of one variable.
 pub(super) const X: &[Field] = &[Field::new("x", Type::Float)];
-/// A scalar result.
-pub(super) const SCALAR: &[Output] = &[Output::new("y", Type::Float, Quantity::Builtin, 1.0).headline()];
+/// Its result.
+pub(super) const Y: &[Output] = &[Output::new("y", Type::Float, Quantity::Builtin, 1.0).headline()];
+/// The result of a function of several variables.
+pub(super) const R: &[Output] = &[Output::new("r", Type::Float, Quantity::Builtin, 1.0).headline()];
 /// A vector's.
 pub(super) const VECTOR: &[Output] = &[Output::new("n", Type::Vec3, Quantity::Builtin, 1.0).headline()];
 
@@ -151,19 +153,20 @@ impl Problem for Builtin {
 }
 
 impl Builtin {
-    /// Infinite if flushing any of the subnormal inputs moves the result by more than `limit`.
+    /// The limit where any of the subnormal inputs may be flushed: infinite if that moves the result by more than `limit`,
+    /// else what the flushed inputs permit besides.
     fn limit_with_flushing(&self, exact: &[f64], value: &[f64; 3], limit: f64) -> f64 {
         let subnormal = |value: f64| value != 0.0 && value.abs() < SMALLEST_NORMAL;
-        let moves = |flush: u32| {
+        let flushed = |flush: u32| {
             let mut inputs = [0.0; MAX_INPUTS];
             for (at, (slot, value)) in inputs.iter_mut().zip(exact).enumerate() {
                 *slot = if flush >> at & 1 == 1 && subnormal(*value) { 0.0 * value } else { *value };
             }
             let flushed = (self.promise)(&inputs[..exact.len()]);
             let distance = flushed.value.iter().zip(value).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
-            !(flushed.limit.is_finite() && distance <= limit)
+            if distance <= limit { distance + flushed.limit } else { f64::INFINITY }
         };
-        if (1..1 << exact.len()).any(moves) { f64::INFINITY } else { limit }
+        (1..1 << exact.len()).map(flushed).fold(limit, f64::max)
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Permitted: 2.5 ULP for divisors of magnitudes 2^-126..2^126, nothing for others.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, any, near, spread_exponents};
+use super::builtin::{AXIS, Builtin, Promise, R, any, near, spread_exponents};
 use super::problem::Scenario;
 use crate::catalog::{Field, Type};
 use crate::numeric::vulkan_limits::{Interval, quotient};
@@ -12,7 +12,7 @@ pub(super) static DIV: Builtin = Builtin {
     function: "builtin_div",
     summary: "The device's x / y: 2.5 ULP for |y| in 2^-126..2^126",
     inputs: &[Field::new("x", Type::Float), Field::new("y", Type::Float)],
-    outputs: SCALAR,
+    outputs: R,
     scenarios: &[
         Scenario {
             name: "strata",

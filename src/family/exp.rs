@@ -2,7 +2,7 @@
 //!
 //! Permitted: 3 + 2 |x| ULP; overflow gives infinity or the largest f32, and a result among the subnormals may be flushed.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, X, any, near, spread};
+use super::builtin::{AXIS, Builtin, Promise, X, Y, any, near, spread};
 use super::problem::Scenario;
 use crate::numeric::vulkan_limits::{self, Interval};
 
@@ -11,7 +11,7 @@ pub(super) static EXP: Builtin = Builtin {
     function: "builtin_exp",
     summary: "The device's exp: 3 + 2 |x| ULP",
     inputs: X,
-    outputs: SCALAR,
+    outputs: Y,
     scenarios: &[
         Scenario {
             name: "domain",

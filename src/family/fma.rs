@@ -2,7 +2,7 @@
 //!
 //! Permitted: as a product, then a sum, each correctly rounded in either direction: it need not be fused.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, any, near, spread_exponents};
+use super::builtin::{AXIS, Builtin, Promise, R, any, near, spread_exponents};
 use super::problem::Scenario;
 use crate::catalog::{Field, Type};
 use crate::numeric::vulkan_limits::{Interval, product, sum};
@@ -12,7 +12,7 @@ pub(super) static FMA: Builtin = Builtin {
     function: "builtin_fma",
     summary: "The device's fma: as a product, then a sum",
     inputs: &[Field::new("x", Type::Float), Field::new("y", Type::Float), Field::new("z", Type::Float)],
-    outputs: SCALAR,
+    outputs: R,
     scenarios: &[
         Scenario {
             name: "strata",

@@ -2,7 +2,7 @@
 //!
 //! Permitted: 2 ULP; undefined from 0 downwards, and so where a subnormal is flushed.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, X, any, near};
+use super::builtin::{AXIS, Builtin, Promise, X, Y, any, near};
 use super::problem::Scenario;
 use crate::numeric::vulkan_limits::{Interval, inverse_sqrt};
 
@@ -11,7 +11,7 @@ pub(super) static INVERSESQRT: Builtin = Builtin {
     function: "builtin_inversesqrt",
     summary: "The device's inversesqrt: 2 ULP",
     inputs: X,
-    outputs: SCALAR,
+    outputs: Y,
     scenarios: &[
         Scenario {
             name: "domain",

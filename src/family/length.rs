@@ -2,7 +2,7 @@
 //!
 //! Permitted: as sqrt(dot(v, v)), so nothing where a square overflows, nor where all may be flushed.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, any, near, spread_exponents};
+use super::builtin::{AXIS, Builtin, Promise, R, any, near, spread_exponents};
 use super::problem::Scenario;
 use crate::catalog::{Field, Type};
 use crate::numeric::vulkan_limits::{dot, sqrt};
@@ -12,7 +12,7 @@ pub(super) static LENGTH: Builtin = Builtin {
     function: "builtin_length",
     summary: "The device's length of a vec3: as sqrt(dot(v, v))",
     inputs: &[Field::new("v", Type::Vec3)],
-    outputs: SCALAR,
+    outputs: R,
     scenarios: &[
         Scenario {
             name: "strata",

@@ -2,7 +2,7 @@
 //!
 //! Permitted: 3 ULP, and an absolute 2^-21 for x in 0.5..2; undefined from 0 downwards, and so where a subnormal is flushed.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, X, any, near};
+use super::builtin::{AXIS, Builtin, Promise, X, Y, any, near};
 use super::problem::Scenario;
 use crate::numeric::vulkan_limits;
 
@@ -11,7 +11,7 @@ pub(super) static LOG2: Builtin = Builtin {
     function: "builtin_log2",
     summary: "The device's log2: 3 ULP, and 2^-21 absolute for x in 0.5..2",
     inputs: X,
-    outputs: SCALAR,
+    outputs: Y,
     scenarios: &[
         Scenario {
             name: "domain",

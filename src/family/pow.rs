@@ -2,7 +2,7 @@
 //!
 //! Permitted: as exp2(y log2(x)); undefined for x < 0, and nothing promised at x = 0, whose logarithm is infinite.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, any, near, spread};
+use super::builtin::{AXIS, Builtin, Promise, R, any, near, spread};
 use super::problem::Scenario;
 use crate::catalog::{Field, Type};
 use crate::numeric::vulkan_limits::{Interval, exp2, log2, product};
@@ -12,7 +12,7 @@ pub(super) static POW: Builtin = Builtin {
     function: "builtin_pow",
     summary: "The device's pow: as exp2(y log2(x))",
     inputs: &[Field::new("x", Type::Float), Field::new("y", Type::Float)],
-    outputs: SCALAR,
+    outputs: R,
     scenarios: &[
         Scenario {
             name: "strata",

@@ -2,7 +2,7 @@
 //!
 //! Permitted: 2^-11 absolute on -pi..pi, nothing beyond. libm's sin reduces any f32 exactly enough (Payne and Hanek).
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, X, any, near, spread};
+use super::builtin::{AXIS, Builtin, Promise, X, Y, any, near, spread};
 use super::problem::Scenario;
 use crate::numeric::vulkan_limits;
 
@@ -11,7 +11,7 @@ pub(super) static SIN: Builtin = Builtin {
     function: "builtin_sin",
     summary: "The device's sin: 2^-11 absolute on -pi..pi, and no promise beyond",
     inputs: X,
-    outputs: SCALAR,
+    outputs: Y,
     scenarios: &[
         Scenario {
             name: "domain",

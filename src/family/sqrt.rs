@@ -2,7 +2,7 @@
 //!
 //! Permitted: as 1 / inversesqrt(x), so nothing at 0, whose inverse root is infinite; undefined below.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, X, any, near};
+use super::builtin::{AXIS, Builtin, Promise, X, Y, any, near};
 use super::problem::Scenario;
 use crate::numeric::vulkan_limits::{self, Interval};
 
@@ -11,7 +11,7 @@ pub(super) static SQRT: Builtin = Builtin {
     function: "builtin_sqrt",
     summary: "The device's sqrt: as 1 / inversesqrt(x)",
     inputs: X,
-    outputs: SCALAR,
+    outputs: Y,
     scenarios: &[
         Scenario {
             name: "domain",

@@ -2,7 +2,7 @@
 //!
 //! Permitted: as sin over cos, so nothing beyond -pi..pi nor within 2^-11 of a pole.
 
-use super::builtin::{AXIS, Builtin, Promise, SCALAR, X, any, near, spread};
+use super::builtin::{AXIS, Builtin, Promise, X, Y, any, near, spread};
 use super::problem::Scenario;
 use crate::numeric::vulkan_limits::{self, quotient};
 
@@ -11,7 +11,7 @@ pub(super) static TAN: Builtin = Builtin {
     function: "builtin_tan",
     summary: "The device's tan: as sin over cos, each off by up to 2^-11",
     inputs: X,
-    outputs: SCALAR,
+    outputs: Y,
     scenarios: &[
         Scenario {
             name: "domain",
