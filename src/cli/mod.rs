@@ -8,6 +8,7 @@ mod count;
 mod devices;
 mod draft;
 mod eval;
+mod exhaustive;
 mod fit;
 mod list;
 mod machine;
@@ -61,7 +62,8 @@ enum Verb {
     /// Only the precision half of 'run'
     ///
     /// Runs variants over random configurations of each scenario and compares every result with the oracle. See 'rootq
-    /// run --help' for what it leaves.
+    /// run --help' for what it leaves. With --exhaustive, families of one input are audited on all 2^32 bit patterns of
+    /// it, in minutes; interrupted, the same command with the same --out goes on.
     Audit(run::Arguments),
     /// Only the throughput half of 'run'
     ///
@@ -126,8 +128,11 @@ pub fn main() -> ExitCode {
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
         Ok(Outcome::Violated) => VIOLATED.into(),
-        Err(_) if stop.load(Ordering::Relaxed) => {
-            eprintln!("rootq: interrupted; nothing was recorded");
+        Err(error) if stop.load(Ordering::Relaxed) => {
+            match error.downcast_ref::<exhaustive::Kept>() {
+                Some(kept) => eprintln!("rootq: interrupted; {kept}"),
+                None => eprintln!("rootq: interrupted; nothing was recorded"),
+            }
             INTERRUPTED.into()
         }
         // A closed pipe is how the reader says that it has seen enough.

@@ -32,14 +32,17 @@ pub(super) enum Halves {
 #[command(after_help = "Examples:\n  \
     rootq run                                         every built-in variant, every scenario\n  \
     rootq audit ellipse_axes --scenario aspect -n 4M  one family on one scenario\n  \
-    rootq bench 'ellipse_axes/cross*'                 times of some variants")]
+    rootq bench 'ellipse_axes/cross*'                 times of some variants\n  \
+    rootq audit sin/native --exhaustive --out sin     all 2^32 inputs; started again it goes on")]
 pub(super) struct Arguments {
     /// Variants: FAMILY, FAMILY/VARIANT or a glob such as 'ellipse_axes/cross*' [default: all]
     #[arg(value_name = "SELECT")]
-    select: Vec<String>,
+    pub(super) select: Vec<String>,
     /// Configurations a scenario; K, M and G are allowed
     #[arg(short = 'n', value_name = "COUNT", default_value = "1M", value_parser = count::parse, allow_hyphen_values = true)]
     configurations: u64,
+    #[command(flatten)]
+    pub(super) exhaustive: super::exhaustive::Options,
     /// Seed of the random configurations
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -47,19 +50,19 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "NAME")]
     scenario: Vec<String>,
     #[command(flatten)]
-    device: DeviceArguments,
+    pub(super) device: DeviceArguments,
     /// Run folder to write [default: bench_results/<device>/<date>-<commit>]
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
     /// Replace a run that --out holds already
     #[arg(long)]
-    force: bool,
+    pub(super) force: bool,
     /// Failures to keep a variant and scenario
     #[arg(long, value_name = "N", default_value_t = 100)]
-    max_failures: usize,
+    pub(super) max_failures: usize,
     /// Configurations a chunk, at most 2^20; changes no result
     #[arg(long, value_name = "COUNT", default_value = "1048576", value_parser = count::parse)]
-    chunk: u64,
+    pub(super) chunk: u64,
     /// Host threads for sampling, oracle and judge; changes no result [default: one a core]
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -69,12 +72,12 @@ pub(super) struct Arguments {
 }
 
 /// Variants that are ready to run, and those that cannot here.
-struct Prepared {
-    record: record::Family,
-    selected: Selected,
+pub(super) struct Prepared {
+    pub(super) record: record::Family,
+    pub(super) selected: Selected,
     /// Programs, each with its variant's place in the record.
-    programs: Vec<<VulkanDevice as Device>::Program>,
-    places: Vec<usize>,
+    pub(super) programs: Vec<<VulkanDevice as Device>::Program>,
+    pub(super) places: Vec<usize>,
 }
 
 pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> Result<()> {
@@ -88,6 +91,12 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
             bail!("--threads must be from 1 to 1024");
         }
         rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().context("--threads")?;
+    }
+    if arguments.exhaustive.wanted() {
+        if halves != Halves::Audit {
+            bail!("only 'rootq audit' is exhaustive");
+        }
+        return super::exhaustive::audit(arguments, start, started, stop);
     }
     let catalog = Catalog::embedded()?;
     let selected = selection::variants(&catalog, &arguments.select)?;
@@ -116,6 +125,20 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
     }
     machine.check_validation()?;
 
+    let families = families.into_iter().map(|family| family.record).collect();
+    finish(arguments, (start, started), arguments.configurations, facts, families, folder, &evidence)
+}
+
+/// Writes the run's folder and shows its tables.
+pub(super) fn finish(
+    arguments: &Arguments,
+    (start, started): (Instant, jiff::Timestamp),
+    configurations: u64,
+    device: device::Facts,
+    families: Vec<record::Family>,
+    folder: Folder,
+    evidence: &[Evidence],
+) -> Result<()> {
     let run = record::Run {
         schema: record::SCHEMA,
         program: program(),
@@ -127,23 +150,23 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
             arch: std::env::consts::ARCH.to_owned(),
             threads: rayon::current_num_threads(),
         },
-        device: facts,
+        device,
         settings: record::Settings {
             seed: arguments.seed,
-            configurations: arguments.configurations,
+            configurations,
             chunk: arguments.chunk.min(MAX_CHUNK as u64) as usize,
             max_failures: arguments.max_failures,
         },
         ceilings: None,
-        families: families.into_iter().map(|family| family.record).collect(),
+        families,
     };
-    let folder = folder.finish(&run, &evidence)?;
+    let folder = folder.finish(&run, evidence)?;
     super::print(&report::run(&run, super::colour()))?;
     eprintln!("run folder: {} ({:.0} s)", folder.display(), run.seconds);
     Ok(())
 }
 
-fn program() -> record::Program {
+pub(super) fn program() -> record::Program {
     record::Program {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         revision: env!("ROOTQ_REVISION").to_owned(),
@@ -153,7 +176,7 @@ fn program() -> record::Program {
 }
 
 /// Compiles the selected variants; what the device lacks is recorded as a skip.
-fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
+pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
     let signature = selected.problem.signature();
     let mut record = record::family(selected.problem);
     let (mut programs, mut places) = (Vec::new(), Vec::new());

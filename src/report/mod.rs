@@ -1,5 +1,6 @@
 //! Tables for the terminal, made from a record alone: what is shown can be shown again from `run.json`.
 
+mod builtin;
 mod compare;
 mod numbers;
 mod pick;

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use comfy_table::presets::NOTHING;
 use comfy_table::{Attribute, Cell, CellAlignment, Color, ContentArrangement, Table};
 
+use super::builtin;
 use super::numbers::{percent, short};
 use crate::audit::Verdict;
 use crate::bench::Timing;
@@ -79,7 +80,10 @@ fn scenario_table(family: &Family, scenario: usize, colour: bool) -> String {
         })
         .collect();
     let mut header = vec!["variant".to_owned()];
-    if audited {
+    let is_builtin = builtin::is_builtin(family);
+    if audited && is_builtin {
+        header.extend(builtin::HEADER.map(str::to_owned));
+    } else if audited {
         header.extend(["failed", "non-finite", "ill-cond."].map(str::to_owned));
         header.extend(told.iter().map(|verdict| verdict.name().replace('_', " ")));
         for output in headline.iter().map(|at| &family.outputs[*at]) {
@@ -94,7 +98,7 @@ fn scenario_table(family: &Family, scenario: usize, colour: bool) -> String {
     for (variant, result) in results(family, &scenario.name) {
         let mut row = vec![Cell::new(&variant.name)];
         if let Some(audit) = &result.audit {
-            row.extend(audit_cells(audit, &told, &headline));
+            row.extend(if is_builtin { builtin::cells(audit) } else { audit_cells(audit, &told, &headline) });
         }
         if let Some(timing) = &result.timing {
             row.push(Cell::new(format!("{:.2}", timing.ns.median)));
@@ -214,6 +218,9 @@ fn legend(run: &Run) -> String {
                  what both hit.\n",
             );
         }
+    }
+    if run.families.iter().any(builtin::is_builtin) && audits().next().is_some() {
+        text.push_str(builtin::LEGEND);
     }
     if let Some(timing) = timings().next() {
         _ = writeln!(text, "ns: median nanoseconds a configuration, streaming, {}.", clock(timing));
