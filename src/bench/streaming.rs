@@ -6,32 +6,9 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use super::{Quartiles, Setting, Timing};
+use super::{Effort, Quartiles, Setting, Timing};
 use crate::audit::Stopped;
 use crate::device::{Clock, Device, Outputs};
-
-/// How much to measure.
-#[derive(Clone, Copy, Debug)]
-pub struct Effort {
-    /// Rounds over all variants before the first counted one: a clock may need 400 ms to ramp up.
-    pub warm_up: Duration,
-    /// Counted rounds, at least.
-    pub min_rounds: usize,
-    /// Counted rounds go on until this much time has passed, or [`max_rounds`](Effort::max_rounds).
-    pub time: Duration,
-    pub max_rounds: usize,
-}
-
-impl Default for Effort {
-    fn default() -> Self {
-        Effort {
-            warm_up: Duration::from_millis(400),
-            min_rounds: 7,
-            time: Duration::from_secs(3),
-            max_rounds: 51,
-        }
-    }
-}
 
 /// Configurations a submission: columns too large for most caches, and tens of milliseconds for the slowest kernels on a
 /// software device, where a dispatch over 200 ms may be killed.

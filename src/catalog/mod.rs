@@ -7,6 +7,7 @@ mod front_matter;
 mod generate;
 mod glslang;
 pub mod kernel;
+mod operations;
 mod reflect;
 pub mod signature;
 mod table;
@@ -20,6 +21,7 @@ use generate::Main;
 
 pub use front_matter::{Declaration, Define, FrontMatter};
 pub use kernel::{Kernel, TableBinding, TableForm};
+pub use operations::Operations;
 pub use reflect::Facts;
 pub use signature::{Field, Signature, Type};
 pub use table::{Table, TableName, tables};
@@ -157,17 +159,24 @@ impl Variant {
 
     /// What both kernels are but for the evaluation: the harness's own part of a time.
     pub fn null(signature: &Signature) -> Variant {
+        let summary = "no evaluation: loads, stores and, repeating, the loop";
+        Variant::generated(signature.function, "(null)", summary, generate::null(signature))
+    }
+
+    /// A variant that is in no file: `text` is a function of the signature it is going to be compiled with, and what
+    /// that needs.
+    pub fn generated(family: &str, name: &str, summary: &str, text: String) -> Variant {
         Variant {
-            family: signature.function.to_owned(),
-            name: "(null)".to_owned(),
-            summary: "No evaluation: loads, stores and, repeating, the loop".to_owned(),
+            family: family.to_owned(),
+            name: name.to_owned(),
+            summary: summary.to_owned(),
             source: "generated".to_owned(),
             tried: None,
-            file: GENERATED.to_owned(),
+            file: format!("{family}/{name}"),
             defines: BTreeMap::new(),
             tables: BTreeMap::new(),
             precise: false,
-            text: generate::null(signature),
+            text,
         }
     }
 
