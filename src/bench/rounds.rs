@@ -54,8 +54,6 @@ impl Default for Effort {
 pub struct Rounds {
     /// For each entry one sample a round kept.
     pub samples: Vec<Vec<f64>>,
-    /// The entry that was fastest while warming up: known before anything was counted.
-    pub fastest: usize,
     pub stopped: Stop,
     /// Rounds discarded for being throttled.
     pub discarded: usize,
@@ -64,23 +62,21 @@ pub struct Rounds {
 }
 
 /// Takes rounds over all entries, in each of them every entry once and in random order, so that no entry always runs in
-/// the wake of the same other.
-pub fn rounds<S: Sampler>(sampler: &mut S, effort: &Effort) -> Result<Rounds, S::Error> {
+/// the wake of the same other. They may stop when the ratios to the entry `reference` are known well enough.
+pub fn rounds<S: Sampler>(sampler: &mut S, reference: usize, effort: &Effort) -> Result<Rounds, S::Error> {
     let entries = sampler.entries();
     let mut order: Vec<usize> = (0..entries).collect();
     let mut generator = ChaCha8Rng::seed_from_u64(1);
 
-    let mut least = vec![f64::INFINITY; entries];
     let start = sampler.now();
     loop {
-        for (entry, least) in least.iter_mut().enumerate() {
-            *least = least.min(sampler.sample(entry)?);
+        for entry in 0..entries {
+            sampler.sample(entry)?;
         }
         if sampler.now().saturating_sub(start) >= effort.warm_up {
             break;
         }
     }
-    let fastest = (0..entries).min_by(|a, b| least[*a].total_cmp(&least[*b])).unwrap_or(0);
 
     let mut samples = vec![Vec::new(); entries];
     let start = sampler.now();
@@ -100,7 +96,7 @@ pub fn rounds<S: Sampler>(sampler: &mut S, effort: &Effort) -> Result<Rounds, S:
         // Each look is a chance to stop at a lucky moment, so there are few of them.
         if taken >= look {
             look = taken + taken.div_ceil(2);
-            if narrow(&samples, fastest, effort.narrow) {
+            if narrow(&samples, reference, effort.narrow) {
                 break Stop::Narrow;
             }
         }
@@ -115,7 +111,7 @@ pub fn rounds<S: Sampler>(sampler: &mut S, effort: &Effort) -> Result<Rounds, S:
         samples.retain(|_| !discard.next().copied().unwrap_or(false));
     }
     let discarded = discard.iter().filter(|discard| **discard).count();
-    Ok(Rounds { samples, fastest, stopped, discarded, time })
+    Ok(Rounds { samples, stopped, discarded, time })
 }
 
 /// Fisher and Yates' shuffle.
@@ -220,12 +216,11 @@ mod tests {
     #[test]
     fn steady_samples_stop_early_and_noisy_ones_at_the_time() {
         let mut steady = Synthetic::new(&[10.0, 12.0, 30.0], 1e-4);
-        let taken = rounds(&mut steady, &effort()).unwrap();
+        let taken = rounds(&mut steady, 0, &effort()).unwrap();
         assert_eq!((taken.stopped, taken.samples[0].len()), (Stop::Narrow, 11));
-        assert_eq!(taken.fastest, 0);
 
         let mut noisy = Synthetic::new(&[30.0, 12.0, 10.0], 0.3);
-        let taken = rounds(&mut noisy, &Effort { max_rounds: 10_000, ..effort() }).unwrap();
+        let taken = rounds(&mut noisy, 0, &Effort { max_rounds: 10_000, ..effort() }).unwrap();
         assert_eq!(taken.stopped, Stop::Time);
         // A round takes three milliseconds.
         assert!(
@@ -236,7 +231,7 @@ mod tests {
         assert!(taken.time >= Duration::from_secs(2) && taken.time < Duration::from_millis(2010));
 
         let mut noisy = Synthetic::new(&[30.0, 12.0], 0.3);
-        let taken = rounds(&mut noisy, &Effort { max_rounds: 40, ..effort() }).unwrap();
+        let taken = rounds(&mut noisy, 0, &Effort { max_rounds: 40, ..effort() }).unwrap();
         assert_eq!((taken.stopped, taken.samples[0].len() + taken.discarded), (Stop::Rounds, 40));
     }
 
@@ -244,17 +239,17 @@ mod tests {
     #[test]
     fn the_least_is_always_taken() {
         let mut noisy = Synthetic::new(&[10.0, 12.0], 0.3);
-        let taken = rounds(&mut noisy, &Effort { time: Duration::ZERO, ..effort() }).unwrap();
+        let taken = rounds(&mut noisy, 0, &Effort { time: Duration::ZERO, ..effort() }).unwrap();
         assert_eq!(taken.stopped, Stop::Time);
         assert_eq!(taken.samples[0].len() + taken.discarded, 11);
-        let alone = rounds(&mut Synthetic::new(&[10.0], 0.3), &effort()).unwrap();
+        let alone = rounds(&mut Synthetic::new(&[10.0], 0.3), 0, &effort()).unwrap();
         assert_eq!(alone.stopped, Stop::Narrow);
     }
 
     #[test]
     fn rounds_are_interleaved_in_changing_order() {
         let mut sampler = Synthetic::new(&[10.0, 10.0, 10.0, 10.0], 0.1);
-        rounds(&mut sampler, &Effort { time: Duration::ZERO, ..effort() }).unwrap();
+        rounds(&mut sampler, 0, &Effort { time: Duration::ZERO, ..effort() }).unwrap();
         let counted = &sampler.seen[sampler.seen.len() - 44..];
         let mut followers = std::collections::BTreeSet::new();
         for round in counted.chunks(4) {
@@ -270,7 +265,7 @@ mod tests {
     fn throttled_rounds_are_discarded() {
         let mut sampler = Synthetic::new(&[10.0, 20.0, 30.0], 0.01);
         sampler.throttle = 45..60;
-        let taken = rounds(&mut sampler, &Effort { narrow: 0.0, ..effort() }).unwrap();
+        let taken = rounds(&mut sampler, 0, &Effort { narrow: 0.0, ..effort() }).unwrap();
         // Fifteen samples are five rounds, and a sixth where they begin or end inside one.
         assert!((4..=6).contains(&taken.discarded), "{}", taken.discarded);
         assert!(taken.samples[0].iter().filter(|sample| **sample > 25.0).count() <= 1);
@@ -282,7 +277,7 @@ mod tests {
         for throttle in [0..usize::MAX, 30..usize::MAX, 100..usize::MAX] {
             let mut sampler = Synthetic::new(&[10.0, 20.0, 30.0], 0.01);
             sampler.throttle = throttle.clone();
-            let taken = rounds(&mut sampler, &Effort { narrow: 0.0, max_rounds: 60, ..effort() }).unwrap();
+            let taken = rounds(&mut sampler, 0, &Effort { narrow: 0.0, max_rounds: 60, ..effort() }).unwrap();
             assert!(
                 taken.discarded <= 15 && taken.samples[0].len() >= 45,
                 "{throttle:?}: {}",

@@ -170,6 +170,29 @@ fn results(signature: &Signature) -> Vec<String> {
     values
 }
 
+/// Columns that [`copy`] copies.
+pub(super) const COPIED_COLUMNS: usize = 8;
+
+/// A whole kernel that copies [`COPIED_COLUMNS`] columns without regard to which is which: four floats at once.
+pub(super) fn copy() -> String {
+    let mut text = format!(
+        "#version 450\n\
+         layout(local_size_x = {LOCAL_SIZE}) in;\n\
+         layout(std430, set = {COLUMNS_SET}, binding = {INPUTS_BINDING}) readonly buffer RootqInputs {{ vec4 rootq_inputs[]; }};\n\
+         layout(std430, set = {COLUMNS_SET}, binding = {OUTPUTS_BINDING}) writeonly buffer RootqOutputs {{ vec4 rootq_outputs[]; }};\n\
+         layout(push_constant) uniform RootqRange {{ uint rootq_first; uint rootq_count; uint rootq_stride; }};\n\
+         void main() {{\n\
+         \x20   if (gl_GlobalInvocationID.x >= rootq_count) return;\n\
+         \x20   uint i = rootq_first + gl_GlobalInvocationID.x;\n"
+    );
+    for part in 0..COPIED_COLUMNS / 4 {
+        let at = format!("{part}u * rootq_stride + i");
+        _ = writeln!(text, "    rootq_outputs[{at}] = rootq_inputs[{at}];");
+    }
+    text.push_str("}\n");
+    text
+}
+
 /// A function of `signature` that evaluates nothing: every result is an input's bits, or several inputs' together, so
 /// that all of them are loaded and all of the results stored. What it takes is what the harness takes.
 pub(super) fn null(signature: &Signature) -> String {

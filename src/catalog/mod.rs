@@ -227,6 +227,15 @@ impl Variant {
     }
 }
 
+/// A kernel that copies its columns as fast as a device may: what bandwidth is measured with.
+pub fn copy_kernel() -> Result<Kernel, Error> {
+    let id = "ceiling/copy".to_owned();
+    let spirv = glslang::compile(&generate::copy(), &|_, _| None, false)
+        .map_err(|message| Error::Reflection { id: id.clone(), message })?;
+    let columns = generate::COPIED_COLUMNS;
+    Ok(Kernel { id, spirv, inputs: columns, outputs: columns, tables: Vec::new() })
+}
+
 /// Splits `file:line: message`, where the message may hold colons.
 fn locate(diagnostic: &str) -> Option<(String, usize, &str)> {
     let (place, message) = diagnostic.split_once(": ")?;

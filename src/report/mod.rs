@@ -2,5 +2,6 @@
 
 mod numbers;
 mod table;
+mod timing;
 
 pub use table::{devices, run};
