@@ -11,7 +11,7 @@ use super::{
 use crate::audit::Stopped;
 use crate::catalog::Operations;
 use crate::catalog::kernel::LOCAL_SIZE;
-use crate::device::{Clock, Device, Outputs};
+use crate::device::{self, Clock, Device, Outputs};
 
 /// Configurations that are drawn of a scenario: columns too large for most caches.
 pub const CONFIGURATIONS: usize = 1 << 18;
@@ -85,6 +85,13 @@ impl<D: Device> Contest<'_, D> {
             Regime::Arithmetic => self.arithmetic(setting.inputs, sample, stop)?,
         };
         let times = trial.measure()?;
+        if times.iter().all(Duration::is_zero) {
+            return Err(device::Error::NotSupported {
+                kernel: "timing".to_owned(),
+                what: "timestamps that advance (--host-clock does without)".to_owned(),
+            }
+            .into());
+        }
         let reference = self.reference.unwrap_or_else(|| fastest(&times[..entrants]));
         trial.entries.insert(entrants, reference);
         let repeats = trial.entries.iter().map(|program| {

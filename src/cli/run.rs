@@ -92,7 +92,7 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
     let selected = selection::variants(&catalog, &arguments.select)?;
     selection::check_scenarios(&selected, &arguments.scenario)?;
     arguments.timing.check_reference(&selected)?;
-    let machine = arguments.device.open()?;
+    let machine = arguments.device.open_with(arguments.timing.options())?;
     let facts = machine.device.facts().clone();
     let target = arguments.out.clone().unwrap_or_else(|| {
         let date = started.strftime("%Y-%m-%d").to_string();

@@ -11,7 +11,8 @@ use super::selection::{self, Selected};
 use crate::audit::Chunk;
 use crate::bench::{self, Ceilings, Contest, Effort, Entrant, Ranking, Regime, Setting, Timing};
 use crate::catalog::{Operations, Variant};
-use crate::device::{Device, vulkan::VulkanDevice};
+use crate::device::Device;
+use crate::device::vulkan::{Options, VulkanDevice};
 use crate::family::{Problem, Scenario};
 
 /// Options of timing.
@@ -27,6 +28,9 @@ pub(super) struct TimingArguments {
     /// Variant to which ratios of times are taken [default: the fastest in a trial before anything is counted]
     #[arg(long, value_name = "VARIANT")]
     reference: Option<String>,
+    /// Take times from the host's clock, around submission and fence, also where the device has timestamps
+    #[arg(long)]
+    host_clock: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -59,6 +63,11 @@ impl TimingArguments {
             );
         }
         Ok(())
+    }
+
+    /// How the device is to take times.
+    pub(super) fn options(&self) -> Options {
+        Options { ignore_timestamps: self.host_clock, ..Options::default() }
     }
 
     fn settings(&self) -> impl Iterator<Item = Setting> {

@@ -61,12 +61,12 @@ pub(super) fn table(family: &Family, scenario: &Scenario, colour: bool) -> Strin
     let repeats = settings.contains(&Setting::DIVERGENT);
     let mut header = vec!["variant"];
     if streams {
-        header.extend(["streaming", "quartiles", "M/s", "of copy", "bound"]);
+        header.extend(["streaming", "M/s", "of copy", "bound"]);
     }
     if repeats {
-        header.extend(["coherent", "divergent", "quartiles", "M/s", "of ops"]);
+        header.extend(["coherent", "divergent", "of ops"]);
     }
-    header.extend(["ratio", "95 %", "rank"]);
+    header.extend(["quartiles", "ratio", "95 %", "rank"]);
     let mut table = plain_table(&header, colour);
 
     let mut rows: Vec<(&Variant, &Result)> = results(family, &scenario.name).collect();
@@ -75,16 +75,18 @@ pub(super) fn table(family: &Family, scenario: &Scenario, colour: bool) -> Strin
     for (variant, result) in rows {
         let mut row = vec![variant.name.clone()];
         if let Some(timing) = result.timing_in(Setting::STREAMING) {
-            row.extend(measured(timing));
+            row.push(median(timing));
+            row.push(short(Some(timing.per_second() * 1e-6)));
             row.push(timing.share.map_or_else(String::new, |share| percent(share.bandwidth)));
             row.push(timing.bound.map_or("", bound).to_owned());
         }
         if let Some(timing) = result.timing_in(Setting::DIVERGENT) {
             row.push(result.timing_in(Setting::COHERENT).map(median).unwrap_or_default());
-            row.extend(measured(timing));
+            row.push(median(timing));
             row.push(of_operations(variant, timing));
         }
         if let Some(timing) = deciding(result) {
+            row.push(format!("{}..{}", nanoseconds(timing.ns.lower), nanoseconds(timing.ns.upper)));
             row.push(timing.ratio.map_or_else(String::new, |ratio| format!("{:.3}", ratio.median)));
             row.push(
                 timing.ratio.map_or_else(String::new, |ratio| format!("{:.3}..{:.3}", ratio.low, ratio.high)),
@@ -97,7 +99,7 @@ pub(super) fn table(family: &Family, scenario: &Scenario, colour: bool) -> Strin
         |setting| scenario.ranking(setting).map_or_else(String::new, |r| nanoseconds(r.null_ns.median));
     let mut row = vec!["(null)".to_owned()];
     if streams {
-        row.extend([null(Setting::STREAMING)].into_iter().chain(std::iter::repeat_n(String::new(), 4)));
+        row.extend([null(Setting::STREAMING)].into_iter().chain(std::iter::repeat_n(String::new(), 3)));
     }
     if repeats {
         row.extend([null(Setting::COHERENT), null(Setting::DIVERGENT)]);
@@ -105,12 +107,6 @@ pub(super) fn table(family: &Family, scenario: &Scenario, colour: bool) -> Strin
     table.add_row(row.into_iter().map(Cell::new).collect::<Vec<_>>());
     right_align(&mut table);
     lines(&table) + &rankings(scenario)
-}
-
-/// Median, quartiles and millions of evaluations a second.
-fn measured(timing: &Timing) -> [String; 3] {
-    let quartiles = format!("{}..{}", nanoseconds(timing.ns.lower), nanoseconds(timing.ns.upper));
-    [median(timing), quartiles, short(Some(timing.per_second() * 1e-6))]
 }
 
 fn percent(share: f64) -> String {
@@ -188,11 +184,12 @@ pub(super) fn legend(run: &Run) -> String {
     };
     _ = writeln!(
         text,
-        "ns: median nanoseconds a configuration, {clock}. streaming: one evaluation each, from memory to memory. arith.:\n\
-         many in registers, each input perturbed by the last output; coherent: a workgroup has one configuration,\n\
-         divergent: each invocation its own. Nothing is subtracted: (null) is what loads, loop and stores take by\n\
-         themselves. bound: memory (or loop) where (null) takes half of the time or more; those do not rank among\n\
-         themselves. rank: the places that the noise leaves open; variants that cannot be told apart share places."
+        "Times are median nanoseconds a configuration, {clock}. streaming (ns): one evaluation each, memory to memory;\n\
+         M/s: millions of them a second. arith.: many in registers, each input perturbed by the last output; coherent: a\n\
+         workgroup has one configuration, divergent (arith. ns): each invocation its own. Nothing is subtracted: (null) is\n\
+         what loads, loop and stores take by themselves; where that is half of the time or more, the bound is memory (or\n\
+         the loop), and such variants do not rank among themselves. quartiles, ratio and its 95 % interval, rank: by the\n\
+         last time given. rank: the places that the noise leaves open; variants that cannot be told apart share places."
     );
     let rankings = || run.families.iter().flat_map(|family| &family.scenarios).flat_map(|s| &s.rankings);
     let comparisons: usize = rankings().map(|ranking| ranking.self_comparisons).sum();
