@@ -36,7 +36,7 @@ const MAX_REPEATS: usize = 64;
 const SHORTEST_SAMPLE: Duration = Duration::from_millis(2);
 const LONGEST_SAMPLE: Duration = Duration::from_millis(40);
 /// Rounds that ought to fit into the time given.
-const WANTED_ROUNDS: u32 = 20;
+const WANTED_ROUNDS: u32 = 40;
 
 /// Where the null kernel takes this much of a variant's time, the time is not the arithmetic's.
 const NOT_ARITHMETIC: f64 = 0.5;
