@@ -55,6 +55,17 @@ struct Widths {
 impl Chunk {
     /// Draws the configurations `first .. first + rows` of a scenario and computes their truth.
     pub fn draw(problem: &dyn Problem, scenario: &Scenario, seed: u64, first: u64, rows: usize) -> Self {
+        Chunk::of_inputs(problem, first, Chunk::draw_inputs(problem, scenario, seed, first, rows))
+    }
+
+    /// Only the inputs of [`draw`](Self::draw), row-major.
+    pub fn draw_inputs(
+        problem: &dyn Problem,
+        scenario: &Scenario,
+        seed: u64,
+        first: u64,
+        rows: usize,
+    ) -> Vec<f32> {
         let stream = Stream::new(seed, &format!("{}/{}", problem.name(), scenario.name));
         let width: usize = problem.inputs().iter().map(|field| field.ty.components()).sum();
         let mut inputs = vec![0.0; rows * width];
@@ -64,7 +75,7 @@ impl Chunk {
                 (scenario.draw)(draw, &mut inputs[row * width..][..width]);
             });
         });
-        Chunk::of_inputs(problem, first, inputs)
+        inputs
     }
 
     /// The truth of consecutive bit patterns of a family's one input column.

@@ -114,8 +114,14 @@ pub(super) fn audit(
         }
     }
     machine.check_validation()?;
-    let families = families.into_iter().map(|family| family.record).collect();
-    run::finish(arguments, (start, started), range.end - range.start, facts, families, folder, &evidence)
+    let measured = run::Measured {
+        configurations: range.end - range.start,
+        device: facts,
+        ceilings: None,
+        families: families.into_iter().map(|family| family.record).collect(),
+        evidence,
+    };
+    run::finish(arguments, (start, started), folder, measured)
 }
 
 /// All that the results depend on.

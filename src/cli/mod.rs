@@ -15,6 +15,7 @@ mod machine;
 mod pick;
 mod run;
 mod selection;
+mod timing;
 
 use std::io::IsTerminal;
 use std::process::ExitCode;
@@ -67,9 +68,13 @@ enum Verb {
     Audit(run::Arguments),
     /// Only the throughput half of 'run'
     ///
-    /// Takes the time of variants by the device's own timestamps, one evaluation a configuration, inputs from memory
-    /// and outputs to it. Variants are interleaved; the table has the median and the quartiles of nanoseconds a
-    /// configuration.
+    /// Takes the time of variants by the device's own timestamps in two regimes. Streaming: one evaluation a
+    /// configuration, inputs from memory and outputs to it. Arithmetic: many evaluations in registers, each with inputs
+    /// perturbed by the last results, once with the same configuration throughout a workgroup (coherent) and once with
+    /// independent ones (divergent). Variants take turns, in changing order, until their ratios to a reference are known to
+    /// half a per cent or time is up. Each ranking holds its reference twice: what differs between the two is noise,
+    /// inside which no variant ranks before another. The table shows shares of what the device did at best in the same
+    /// run. Only a family's first scenario is timed, unless --scenario names others.
     Bench(run::Arguments),
     /// Evaluate your own configurations, by oracle and variants, CSV to CSV
     ///

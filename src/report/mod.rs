@@ -5,6 +5,7 @@ mod compare;
 mod numbers;
 mod pick;
 mod table;
+mod timing;
 
 pub use compare::{Form, compare, github};
 pub use pick::pick;
