@@ -120,7 +120,8 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
             if halves == Halves::Bench && timer.is_none() {
                 break;
             }
-            measure(family, scenario, &machine.device, arguments, halves, timer, stop, &mut groups)?;
+            let work = Work { audit: halves != Halves::Bench, timer };
+            measure(family, scenario, &machine.device, arguments, work, stop, &mut groups)?;
         }
     }
     machine.check_validation()?;
@@ -193,6 +194,13 @@ fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
     Ok(Prepared { record, selected, programs, places })
 }
 
+/// What is to be done on a scenario.
+#[derive(Clone, Copy)]
+struct Work<'a> {
+    audit: bool,
+    timer: Option<&'a Timer<'a>>,
+}
+
 /// Seconds a ranking where nobody says: enough for a place in a table, and for a place that may be believed.
 const SECONDS_OF_RUN: f64 = 0.5;
 const SECONDS_OF_BENCH: f64 = 3.0;
@@ -203,8 +211,7 @@ fn measure(
     scenario: &'static Scenario,
     device: &VulkanDevice,
     arguments: &Arguments,
-    halves: Halves,
-    timer: Option<&Timer>,
+    work: Work<'_>,
     stop: &AtomicBool,
     groups: &mut Vec<FailureGroup>,
 ) -> Result<()> {
@@ -230,7 +237,7 @@ fn measure(
         .collect();
     let mut oracle = None;
 
-    if halves != Halves::Bench {
+    if work.audit {
         let total = arguments.configurations * family.programs.len() as u64;
         let bar = bar(total, &format!("audit {label}"), "{human_pos} of {human_len}  {elapsed}, {eta} to go");
         let audited = audit::audit(device, &family.programs, &plan, &|count| bar.inc(count), stop)?;
@@ -247,7 +254,7 @@ fn measure(
         }
     }
     let mut rankings = Vec::new();
-    if let Some(timer) = timer {
+    if let Some(timer) = work.timer {
         let variants: Vec<&Variant> =
             family.places.iter().map(|place| &family.selected.variants[*place]).collect();
         let facts = family.places.iter().map(|place| &family.record.variants[*place].spirv);
