@@ -13,11 +13,11 @@ use super::machine::DeviceArguments;
 use super::selection::{self, Selected};
 use super::timing::{Timed, Timer, TimingArguments};
 use crate::audit::{self, MAX_CHUNK, Plan};
-use crate::bench::Regime;
+use crate::bench::{Ceilings, Regime};
 use crate::catalog::{self, Catalog, Compiled, Variant};
 use crate::device::{self, Device, vulkan::VulkanDevice};
 use crate::family::Scenario;
-use crate::record::{self, FailureGroup, Folder};
+use crate::record::{self, Evidence, Folder};
 use crate::report;
 
 /// Which halves of a run a verb does.
@@ -34,14 +34,17 @@ pub(super) enum Halves {
     rootq run                                         every built-in variant, every scenario\n  \
     rootq audit ellipse_axes --scenario aspect -n 4M  one family on one scenario\n  \
     rootq bench 'ellipse_axes/cross*'                 times of some variants\n  \
-    rootq bench ltc_line --reference heitz2017 --seconds 10")]
+    rootq bench ltc_line --reference heitz2017 --seconds 10\n  \
+    rootq audit sin/native --exhaustive --out sin     all 2^32 inputs; started again it goes on")]
 pub(super) struct Arguments {
     /// Variants: FAMILY, FAMILY/VARIANT or a glob such as 'ellipse_axes/cross*' [default: all]
     #[arg(value_name = "SELECT")]
-    select: Vec<String>,
+    pub(super) select: Vec<String>,
     /// Configurations a scenario; K, M and G are allowed
     #[arg(short = 'n', value_name = "COUNT", default_value = "1M", value_parser = count::parse, allow_hyphen_values = true)]
     configurations: u64,
+    #[command(flatten)]
+    pub(super) exhaustive: super::exhaustive::Options,
     /// Seed of the random configurations
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -49,19 +52,19 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "NAME")]
     scenario: Vec<String>,
     #[command(flatten)]
-    device: DeviceArguments,
+    pub(super) device: DeviceArguments,
     /// Run folder to write [default: bench_results/<device>/<date>-<commit>]
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
     /// Replace a run that --out holds already
     #[arg(long)]
-    force: bool,
+    pub(super) force: bool,
     /// Failures to keep a variant and scenario
     #[arg(long, value_name = "N", default_value_t = 100)]
-    max_failures: usize,
+    pub(super) max_failures: usize,
     /// Configurations a chunk, at most 2^20; changes no result
     #[arg(long, value_name = "COUNT", default_value = "1048576", value_parser = count::parse)]
-    chunk: u64,
+    pub(super) chunk: u64,
     /// Host threads for sampling, oracle and judge; changes no result [default: one a core]
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -70,12 +73,12 @@ pub(super) struct Arguments {
 }
 
 /// Variants that are ready to run, and those that cannot here.
-struct Prepared {
-    record: record::Family,
-    selected: Selected,
+pub(super) struct Prepared {
+    pub(super) record: record::Family,
+    pub(super) selected: Selected,
     /// Programs, each with its variant's place in the record.
-    programs: Vec<<VulkanDevice as Device>::Program>,
-    places: Vec<usize>,
+    pub(super) programs: Vec<<VulkanDevice as Device>::Program>,
+    pub(super) places: Vec<usize>,
 }
 
 pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> Result<()> {
@@ -87,6 +90,12 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
             bail!("--threads must be from 1 to 1024");
         }
         rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().context("--threads")?;
+    }
+    if arguments.exhaustive.wanted() {
+        if halves != Halves::Audit {
+            bail!("only 'rootq audit' is exhaustive");
+        }
+        return super::exhaustive::audit(arguments, start, started, stop);
     }
     let catalog = Catalog::embedded()?;
     let selected = selection::variants(&catalog, &arguments.select)?;
@@ -110,7 +119,7 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         Halves::Both => Some(Timer::new(&arguments.timing, &machine.device, SECONDS_OF_RUN, stop)?),
         Halves::Bench => Some(Timer::new(&arguments.timing, &machine.device, SECONDS_OF_BENCH, stop)?),
     };
-    let mut groups = Vec::new();
+    let mut evidence = Vec::new();
     for family in &mut families {
         let scenarios = selection::scenarios(family.selected.problem, &arguments.scenario);
         for (position, scenario) in scenarios.into_iter().enumerate() {
@@ -121,11 +130,34 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
                 break;
             }
             let work = Work { audit: halves != Halves::Bench, timer };
-            measure(family, scenario, &machine.device, arguments, work, stop, &mut groups)?;
+            measure(family, scenario, &machine.device, arguments, work, stop, &mut evidence)?;
         }
     }
     machine.check_validation()?;
 
+    let measured = Measured {
+        families: families.into_iter().map(|family| family.record).collect(),
+        ceilings: timer.map(|timer| timer.ceilings),
+    };
+    finish(arguments, (start, started), arguments.configurations, facts, measured, folder, &evidence)
+}
+
+/// What a run has found.
+pub(super) struct Measured {
+    pub(super) families: Vec<record::Family>,
+    pub(super) ceilings: Option<Ceilings>,
+}
+
+/// Writes the run's folder and shows its tables.
+pub(super) fn finish(
+    arguments: &Arguments,
+    (start, started): (Instant, jiff::Timestamp),
+    configurations: u64,
+    device: device::Facts,
+    measured: Measured,
+    folder: Folder,
+    evidence: &[Evidence],
+) -> Result<()> {
     let run = record::Run {
         schema: record::SCHEMA,
         program: program(),
@@ -137,23 +169,23 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
             arch: std::env::consts::ARCH.to_owned(),
             threads: rayon::current_num_threads(),
         },
-        device: facts,
+        device,
         settings: record::Settings {
             seed: arguments.seed,
-            configurations: arguments.configurations,
+            configurations,
             chunk: arguments.chunk.min(MAX_CHUNK as u64) as usize,
             max_failures: arguments.max_failures,
         },
-        ceilings: timer.map(|timer| timer.ceilings),
-        families: families.into_iter().map(|family| family.record).collect(),
+        ceilings: measured.ceilings,
+        families: measured.families,
     };
-    let folder = folder.finish(&run, &groups)?;
+    let folder = folder.finish(&run, evidence)?;
     super::print(&report::run(&run, super::colour()))?;
     eprintln!("run folder: {} ({:.0} s)", folder.display(), run.seconds);
     Ok(())
 }
 
-fn program() -> record::Program {
+pub(super) fn program() -> record::Program {
     record::Program {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         revision: env!("ROOTQ_REVISION").to_owned(),
@@ -163,7 +195,7 @@ fn program() -> record::Program {
 }
 
 /// Compiles the selected variants; what the device lacks is recorded as a skip.
-fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
+pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
     let signature = selected.problem.signature();
     let mut record = record::family(selected.problem);
     let (mut programs, mut places) = (Vec::new(), Vec::new());
@@ -213,7 +245,7 @@ fn measure(
     arguments: &Arguments,
     work: Work<'_>,
     stop: &AtomicBool,
-    groups: &mut Vec<FailureGroup>,
+    evidence: &mut Vec<Evidence>,
 ) -> Result<()> {
     let problem = family.selected.problem;
     let label = format!("{}/{}", problem.name(), scenario.name);
@@ -235,7 +267,7 @@ fn measure(
             arithmetic: Vec::new(),
         })
         .collect();
-    let mut oracle = None;
+    let (mut oracle, mut digest) = (None, None);
 
     if work.audit {
         let total = arguments.configurations * family.programs.len() as u64;
@@ -243,13 +275,15 @@ fn measure(
         let audited = audit::audit(device, &family.programs, &plan, &|count| bar.inc(count), stop)?;
         bar.finish_and_clear();
         oracle = Some(audited.oracle.into());
+        digest = Some(format!("{:016x}", audited.inputs));
         for ((result, summary), place) in results.iter_mut().zip(&audited.summaries).zip(&family.places) {
             result.audit = Some(record::audit(problem, summary));
-            groups.push(FailureGroup {
+            evidence.push(Evidence {
                 family: problem.name(),
                 variant: family.record.variants[*place].name.clone(),
                 scenario: scenario.name,
                 failures: summary.failures.sorted().into_iter().cloned().collect(),
+                bits: summary.bits.clone(),
             });
         }
     }
@@ -283,6 +317,7 @@ fn measure(
     family.record.scenarios.push(record::Scenario {
         name: scenario.name.to_owned(),
         summary: scenario.summary.to_owned(),
+        inputs: digest,
         oracle,
         rankings,
     });

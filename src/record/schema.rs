@@ -78,7 +78,8 @@ pub struct Family {
 pub struct Output {
     pub name: String,
     /// How its error is measured: `magnitude` and `scalar` (relative), `unit_vector` (radians), `irradiance` and
-    /// `vector_irradiance` (absolute, the full hemisphere being 1).
+    /// `vector_irradiance` (absolute, the full hemisphere being 1), `property` (the largest residual of what must hold),
+    /// `builtin` (a share of the permitted error).
     pub quantity: String,
     pub tolerance: f64,
     pub headline: bool,
@@ -96,6 +97,9 @@ pub struct Landmark {
 pub struct Scenario {
     pub name: String,
     pub summary: String,
+    /// Digest of all configurations' bits, in hexadecimal: where two runs agree in it, they had the same configurations.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub inputs: Option<String>,
     /// Absent if only times were taken.
     pub oracle: Option<Oracle>,
     /// One a setting in which times were taken: what its timings have in common.
@@ -191,10 +195,11 @@ pub struct Rate {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OutputAudit {
     pub name: String,
-    /// Error beyond the tolerance or not finite, whoever is to blame.
+    /// Error beyond the tolerance, not finite, or not to be had because only one of truth and variant is a miss; whoever
+    /// is to blame.
     pub beyond: Rate,
     pub visible: Visible,
-    /// In the quantity's own measure.
+    /// In the quantity's own measure; of the configurations where neither truth nor variant is a miss, as all that follow.
     pub error: Distribution,
     /// Units of the f32 spacing at the unrounded truth.
     pub ulp: Distribution,
@@ -202,6 +207,34 @@ pub struct OutputAudit {
     pub conditioned: Distribution,
     /// The worst finite error.
     pub worst: Option<Worst>,
+    /// Of a builtin: the worst configurations themselves.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub extremes: Option<Extremes>,
+}
+
+/// The worst finite errors of a builtin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Extremes {
+    /// In units in the last place, where the specification promises anything.
+    pub ulp: Option<Specimen>,
+    /// As a share of the permitted error.
+    pub share: Option<Specimen>,
+    /// Absolute or relative, whichever is less, where the specification promises nothing.
+    pub unspecified: Option<Specimen>,
+}
+
+/// One configuration and what came of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Specimen {
+    /// The error, as the field says that holds it.
+    pub size: f64,
+    pub index: u64,
+    /// In the order of input columns.
+    pub inputs: Vec<f32>,
+    pub output: Vec<Option<f32>>,
+    pub truth: Vec<f64>,
+    /// The permitted error; `null` where nothing is promised.
+    pub limit: Option<f64>,
 }
 
 /// Configurations whose error is at least one step of a display or frame buffer.

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use comfy_table::presets::NOTHING;
 use comfy_table::{Attribute, Cell, CellAlignment, Color, ContentArrangement, Table};
 
+use super::builtin;
 use super::numbers::{percent, short};
 use super::timing;
 use crate::audit::Verdict;
@@ -73,9 +74,21 @@ fn scenario_table(family: &Family, scenario: usize, colour: bool) -> String {
         family.outputs.iter().enumerate().filter(|(_, output)| output.headline).map(|(at, _)| at).collect();
     let audited = results(family, &scenario.name).any(|(_, result)| result.audit.is_some());
     let timed = results(family, &scenario.name).any(|(_, result)| result.timings().next().is_some());
+    let told: Vec<Verdict> = TOLD_IF_ANY
+        .into_iter()
+        .filter(|verdict| {
+            has(family, |result| {
+                result.audit.as_ref().is_some_and(|audit| audit.verdicts.contains_key(verdict))
+            })
+        })
+        .collect();
     let mut header = vec!["variant".to_owned()];
-    if audited {
+    let is_builtin = builtin::is_builtin(family);
+    if audited && is_builtin {
+        header.extend(builtin::HEADER.map(str::to_owned));
+    } else if audited {
         header.extend(["failed", "non-finite", "ill-cond."].map(str::to_owned));
+        header.extend(told.iter().map(|verdict| verdict.name().replace('_', " ")));
         for output in headline.iter().map(|at| &family.outputs[*at]) {
             header.push(format!("{} off > {}", output.name, tolerance(output.tolerance, &output.quantity)));
             header.extend(["p99", "worst", "worst ULP"].map(str::to_owned));
@@ -91,7 +104,7 @@ fn scenario_table(family: &Family, scenario: usize, colour: bool) -> String {
     for (variant, result) in results(family, &scenario.name) {
         let mut row = vec![Cell::new(&variant.name)];
         if let Some(audit) = &result.audit {
-            row.extend(audit_cells(audit, &headline));
+            row.extend(if is_builtin { builtin::cells(audit) } else { audit_cells(audit, &told, &headline) });
         }
         if timed {
             row.extend(timing::short_cells(result));
@@ -102,13 +115,17 @@ fn scenario_table(family: &Family, scenario: usize, colour: bool) -> String {
     lines(&table) + &timing::rankings(scenario)
 }
 
-fn audit_cells(audit: &Audit, headline: &[usize]) -> Vec<Cell> {
+/// Verdicts with a column of their own in families where they occur: what no error's size tells.
+const TOLD_IF_ANY: [Verdict; 2] = [Verdict::NotEnclosing, Verdict::Missed];
+
+fn audit_cells(audit: &Audit, told: &[Verdict], headline: &[usize]) -> Vec<Cell> {
     let verdict = |verdict: Verdict| audit.verdicts.get(&verdict).map_or_else(|| "0".to_owned(), percent);
     let mut cells = vec![
         graded(&audit.failed),
         Cell::new(verdict(Verdict::NonFinite)),
         Cell::new(verdict(Verdict::IllConditioned)),
     ];
+    cells.extend(told.iter().map(|told| Cell::new(verdict(*told))));
     for output in headline.iter().map(|at| &audit.outputs[*at]) {
         cells.push(Cell::new(percent(&output.beyond)));
         cells.push(Cell::new(short(output.error.p99)));
@@ -166,7 +183,7 @@ fn graded(rate: &Rate) -> Cell {
 
 fn tolerance(tolerance: f64, quantity: &str) -> String {
     match quantity {
-        "magnitude" | "scalar" => format!("{} %", 100.0 * tolerance),
+        "magnitude" | "scalar" | "solid_angle" | "vector" => format!("{} %", 100.0 * tolerance),
         "unit_vector" => format!("{} mrad", 1e3 * tolerance),
         _ => format!("{tolerance}"),
     }
@@ -189,6 +206,21 @@ fn legend(run: &Run) -> String {
             audit.configurations,
             3.0 / audit.configurations as f64
         );
+        let occurs = |verdict| audits().any(|audit| audit.verdicts.contains_key(&verdict));
+        if occurs(Verdict::NotEnclosing) {
+            text.push_str(
+                "not enclosing: the box leaves out a part, however small, of what it must enclose.\n",
+            );
+        }
+        if occurs(Verdict::Missed) {
+            text.push_str(
+                "missed: a miss for a hit or a hit for a miss, beyond what rounding the inputs would explain. Errors are of\n\
+                 what both hit.\n",
+            );
+        }
+    }
+    if run.families.iter().any(builtin::is_builtin) && audits().next().is_some() {
+        text.push_str(builtin::LEGEND);
     }
     text.push_str(&timing::legend(run));
     let oracle = run
