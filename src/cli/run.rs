@@ -11,7 +11,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::count;
 use super::machine::DeviceArguments;
 use super::selection::{self, Selected};
-use super::timing::{Timed, Timer, TimingArguments};
+use super::timing::{Depth, Timed, Timer, TimingArguments};
 use crate::audit::{self, MAX_CHUNK, Plan};
 use crate::bench::{Ceilings, Regime};
 use crate::catalog::{self, Catalog, Compiled, Variant};
@@ -116,8 +116,8 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         .collect::<Result<Vec<_>>>()?;
     let timer = match halves {
         Halves::Audit => None,
-        Halves::Both => Some(Timer::new(&arguments.timing, &machine.device, SECONDS_OF_RUN, stop)?),
-        Halves::Bench => Some(Timer::new(&arguments.timing, &machine.device, SECONDS_OF_BENCH, stop)?),
+        Halves::Both => Some(Timer::new(&arguments.timing, &machine.device, Depth::Glance, stop)?),
+        Halves::Bench => Some(Timer::new(&arguments.timing, &machine.device, Depth::Study, stop)?),
     };
     let mut evidence = Vec::new();
     for family in &mut families {
@@ -232,10 +232,6 @@ struct Work<'a> {
     audit: bool,
     timer: Option<&'a Timer<'a>>,
 }
-
-/// Seconds a ranking where nobody says: enough for a place in a table, and for a place that may be believed.
-const SECONDS_OF_RUN: f64 = 0.5;
-const SECONDS_OF_BENCH: f64 = 3.0;
 
 /// One scenario of one family: audit, times, or both, into the family's record.
 fn measure(
