@@ -26,7 +26,9 @@ const LEAST_STREAMED: usize = 1 << 14;
 
 /// Invocations in the arithmetic regime: some for every lane of a device, of which a software device has few.
 const LANES_SOFTWARE: usize = 1 << 12;
-const LANES: usize = 1 << 18;
+const LANES: usize = 1 << 20;
+/// Not longer than this, or the device would split a dispatch and leave lanes idle.
+const LONGEST_LOOP: Duration = Duration::from_millis(30);
 /// Evaluations an invocation: enough for loads and stores not to matter, few enough for a watchdog.
 const EVALUATIONS: std::ops::RangeInclusive<u32> = 16..=4096;
 
@@ -207,7 +209,7 @@ impl<D: Device> Contest<'_, D> {
         Ok(trial)
     }
 
-    /// Programs and columns for the arithmetic regime, where the slowest takes about four samples' time.
+    /// Programs and columns for the arithmetic regime, where the slowest takes up to four samples' time.
     fn arithmetic<'b>(
         &'b self,
         coherence: Coherence,
@@ -228,7 +230,8 @@ impl<D: Device> Contest<'_, D> {
         let few = *EVALUATIONS.start();
         let mut trial = Trial::new(self.device, programs(few)?, inputs, rows, few, stop);
         let slowest = trial.measure()?.into_iter().max().unwrap_or_default();
-        let fitting = 4.0 * sample.as_secs_f64() / (slowest.as_secs_f64() / f64::from(few)).max(1e-12);
+        let fitting = (4 * sample).min(LONGEST_LOOP).as_secs_f64()
+            / (slowest.as_secs_f64() / f64::from(few)).max(1e-12);
         trial.evaluations = (1 << fitting.clamp(1.0, 1e9).log2() as u32).clamp(few, *EVALUATIONS.end());
         trial.programs = programs(trial.evaluations)?;
         Ok(trial)
