@@ -2,6 +2,8 @@
 
 mod builtin;
 mod numbers;
+mod probe;
 mod table;
 
+pub use probe::probes;
 pub use table::{devices, run};

@@ -227,7 +227,7 @@ fn clock(timing: &Timing) -> &'static str {
     }
 }
 
-fn table<T: ToString>(header: &[T], colour: bool) -> Table {
+pub(super) fn table<T: ToString>(header: &[T], colour: bool) -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING).set_content_arrangement(ContentArrangement::Disabled);
     if colour {
@@ -245,7 +245,7 @@ fn right_align(table: &mut Table) {
     }
 }
 
-fn lines(table: &Table) -> String {
+pub(super) fn lines(table: &Table) -> String {
     let mut text = String::new();
     for line in table.lines() {
         text.push_str(line.trim_end());
