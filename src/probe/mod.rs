@@ -8,6 +8,8 @@ mod arithmetic;
 mod filter;
 mod kernels;
 mod special;
+#[cfg(test)]
+mod tests;
 
 use serde::{Deserialize, Serialize};
 
