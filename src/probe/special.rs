@@ -129,7 +129,7 @@ mod tests {
             let host = match (kernel.function, result) {
                 ("special", 0) => written(a.min(*b)),
                 ("special", 1) => written(a.max(*b)),
-                ("special", 2) => written(a.max(0.0).min(1.0)),
+                ("special", 2) => written(f32::min(a.max(0.0), 1.0)),
                 ("special", 3) => condition(a == b),
                 ("special", 4) => condition(a != b),
                 ("special", 5) => condition(a < b),

@@ -107,8 +107,7 @@ impl Habits {
             }
             "probe/roots" | "probe/functions" => {
                 let x = operand(0);
-                let all =
-                    vec![self.round(x.sqrt()), self.round(1.0 / x.sqrt()), x.ln() as f32, x.exp() as f32];
+                let all = [self.round(x.sqrt()), self.round(1.0 / x.sqrt()), x.ln() as f32, x.exp() as f32];
                 all[..if id == "probe/roots" { 2 } else { 4 }].to_vec()
             }
             "probe/fused" => {
@@ -123,7 +122,7 @@ impl Habits {
                     false => (x.min(y), x.max(y)),
                 };
                 let conditions = [x == y, x != y, x < y, x.is_nan(), x.is_infinite()].map(truth);
-                [vec![least, largest, x.max(0.0).min(1.0)], conditions.to_vec()].concat()
+                [vec![least, largest, f32::min(x.max(0.0), 1.0)], conditions.to_vec()].concat()
             }
             "probe/filter" => {
                 let steps = f32::from(1u16 << self.filter_bits);
