@@ -29,6 +29,8 @@ pub struct Plan<'a> {
 #[derive(Debug)]
 pub struct Audited {
     pub oracle: OracleSummary,
+    /// Sum of all chunks' [`Chunk::digest`].
+    pub inputs: u64,
     /// One a program, in order.
     pub summaries: Vec<Summary>,
 }
@@ -100,8 +102,11 @@ fn chunks<D: Device>(
     let (inputs, outputs) = (signature.input_columns().len(), signature.output_columns().len());
     let chunk = plan.chunk.clamp(1, MAX_CHUNK.min(device.max_rows(inputs, outputs)));
     let empty = || Summary::new(plan.problem, plan.max_failures);
-    let mut audited =
-        Audited { oracle: OracleSummary::default(), summaries: programs.iter().map(|_| empty()).collect() };
+    let mut audited = Audited {
+        oracle: OracleSummary::default(),
+        inputs: 0,
+        summaries: programs.iter().map(|_| empty()).collect(),
+    };
 
     std::thread::scope(|scope| {
         // Holds one finished chunk while the next is drawn.
@@ -130,6 +135,7 @@ fn chunks<D: Device>(
         };
         for chunk in receiver {
             audited.oracle = audited.oracle.merged(chunk.oracle);
+            audited.inputs = audited.inputs.wrapping_add(chunk.digest());
             let chunk = Arc::new(chunk);
             let columns = device.upload(chunk.inputs(), inputs)?;
             for (position, program) in programs.iter().enumerate() {

@@ -4,6 +4,7 @@ use std::collections::BinaryHeap;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::fingerprint::mix;
 use super::{Verdict, exact_bits};
 
 /// One failing configuration as it was seen.
@@ -39,7 +40,7 @@ impl Failures {
 
     /// Offers the failure of configuration `index`, which is only looked at if it is kept.
     pub fn offer(&mut self, index: u64, failure: impl FnOnce() -> Failure) {
-        let rank = (hash(index), index);
+        let rank = (mix(index), index);
         if self.kept.len() < self.limit {
             self.kept.push(Ranked { rank, failure: failure() });
         } else if self.kept.peek().is_some_and(|worst| rank < worst.rank) {
@@ -102,14 +103,6 @@ impl Ord for Ranked {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
         self.rank.cmp(&other.rank)
     }
-}
-
-/// The finaliser of SplitMix64, a bijection of 64 bits.
-fn hash(index: u64) -> u64 {
-    let mut z = index.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ use crate::catalog::Catalog;
 use crate::device::{Device, Facts};
 use crate::family::FAMILIES;
 use crate::job::{self, JOURNAL, Journal};
-use crate::record::{self, FailureGroup, Folder};
+use crate::record::{self, Evidence, Folder};
 
 /// Options of an exhaustive audit.
 #[derive(Args, Debug)]
@@ -98,7 +98,7 @@ pub(super) fn audit(
     if journal.finished() > 0 {
         eprintln!("going on after {} of {parts} parts", journal.finished());
     }
-    let mut groups = Vec::new();
+    let mut evidence = Vec::new();
     for family in &mut families {
         let sweep = Sweep {
             problem: family.selected.problem,
@@ -106,7 +106,7 @@ pub(super) fn audit(
             chunk: arguments.chunk.min(MAX_CHUNK as u64) as usize,
             max_failures: arguments.max_failures,
         };
-        if let Err(error) = exhaust(family, &sweep, &machine.device, &mut journal, stop, &mut groups) {
+        if let Err(error) = exhaust(family, &sweep, &machine.device, &mut journal, stop, &mut evidence) {
             if stop.load(Ordering::Relaxed) {
                 return Err(Kept { finished: journal.finished(), parts, folder: target }.into());
             }
@@ -114,8 +114,14 @@ pub(super) fn audit(
         }
     }
     machine.check_validation()?;
-    let families = families.into_iter().map(|family| family.record).collect();
-    run::finish(arguments, (start, started), range.end - range.start, facts, families, folder, &groups)
+    let measured = run::Measured {
+        configurations: range.end - range.start,
+        device: facts,
+        ceilings: None,
+        families: families.into_iter().map(|family| family.record).collect(),
+        evidence,
+    };
+    run::finish(arguments, (start, started), folder, measured)
 }
 
 /// All that the results depend on.
@@ -151,7 +157,7 @@ fn exhaust<D: Device<Program = crate::device::vulkan::Program>>(
     device: &D,
     journal: &mut Journal,
     stop: &AtomicBool,
-    groups: &mut Vec<FailureGroup>,
+    evidence: &mut Vec<Evidence>,
 ) -> Result<()> {
     const NAME: &str = "exhaustive";
     let problem = family.selected.problem;
@@ -167,12 +173,14 @@ fn exhaust<D: Device<Program = crate::device::vulkan::Program>>(
             scenario: NAME.to_owned(),
             audit: Some(record::audit(problem, summary)),
             timing: None,
+            arithmetic: Vec::new(),
         });
-        groups.push(FailureGroup {
+        evidence.push(Evidence {
             family: problem.name(),
             variant: variant.name.clone(),
             scenario: NAME,
             failures: summary.failures.sorted().into_iter().cloned().collect(),
+            bits: summary.bits.clone(),
         });
     }
     family.record.scenarios.push(record::Scenario {
@@ -182,7 +190,9 @@ fn exhaust<D: Device<Program = crate::device::vulkan::Program>>(
             sweep.range.start,
             sweep.range.end - 1
         ),
+        inputs: Some(format!("{:016x}", audited.inputs)),
         oracle: Some(audited.oracle.into()),
+        rankings: Vec::new(),
     });
     eprintln!("done: {}/{NAME}", problem.name());
     Ok(())

@@ -7,6 +7,7 @@ mod atan2;
 mod builtin;
 mod cone_axes;
 mod cos;
+mod disk_solid_angle;
 mod div;
 mod edge_integral;
 mod ellipse_axes;
@@ -15,6 +16,7 @@ mod exp2;
 mod fma;
 mod horizon_sphere;
 mod inversesqrt;
+mod latlong_solid_angle;
 mod length;
 mod log;
 mod log2;
@@ -26,6 +28,9 @@ mod ltc_polygon;
 mod ltc_sphere;
 mod ltc_strip;
 mod normalize;
+mod orthonormal_basis;
+mod pixel_cube;
+mod pixel_ortho;
 mod pow;
 mod problem;
 mod sin;
@@ -41,21 +46,23 @@ pub use problem::{
 pub static FAMILIES: &[&dyn Problem] = &[
     &acos::ACOS,
     &asin::ASIN,
-    &atan::ATAN,
     &atan2::ATAN2,
+    &atan::ATAN,
     &cone_axes::ConeAxes,
     &cos::COS,
+    &disk_solid_angle::DiskSolidAngle,
     &div::DIV,
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
-    &exp::EXP,
     &exp2::EXP2,
+    &exp::EXP,
     &fma::FMA,
     &horizon_sphere::HorizonSphere,
     &inversesqrt::INVERSESQRT,
+    &latlong_solid_angle::LatlongSolidAngle,
     &length::LENGTH,
-    &log::LOG,
     &log2::LOG2,
+    &log::LOG,
     &ltc_cylinder::LtcCylinder,
     &ltc_disk::LtcDisk,
     &ltc_ellipsoid::LtcEllipsoid,
@@ -64,6 +71,9 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &ltc_sphere::LtcSphere,
     &ltc_strip::LtcStrip,
     &normalize::NORMALIZE,
+    &orthonormal_basis::OrthonormalBasis,
+    &pixel_cube::PixelCube,
+    &pixel_ortho::PixelOrtho,
     &pow::POW,
     &sin::SIN,
     &sqrt::SQRT,

@@ -21,6 +21,8 @@ pub struct Part {
     pub family: String,
     pub range: Range<u64>,
     pub oracle: OracleSummary,
+    /// Digest of the configurations.
+    pub inputs: u64,
     /// One a program.
     pub summaries: Vec<Summary>,
 }
@@ -128,7 +130,7 @@ mod tests {
 
     fn part(start: u64) -> Part {
         let oracle = OracleSummary { worst_bound: f64::INFINITY, ..OracleSummary::default() };
-        Part { family: "f".to_owned(), range: start..start + 1, oracle, summaries: Vec::new() }
+        Part { family: "f".to_owned(), range: start..start + 1, oracle, inputs: 0, summaries: Vec::new() }
     }
 
     #[test]

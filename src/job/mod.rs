@@ -37,10 +37,12 @@ pub fn exhaust<D: Device>(
     let family = sweep.problem.name();
     let mut whole = Audited {
         oracle: OracleSummary::default(),
+        inputs: 0,
         summaries: programs.iter().map(|_| Summary::new(sweep.problem, sweep.max_failures)).collect(),
     };
     let mut merge = |part: &Part| {
         whole.oracle = whole.oracle.merged(part.oracle);
+        whole.inputs = whole.inputs.wrapping_add(part.inputs);
         for (whole, part) in whole.summaries.iter_mut().zip(&part.summaries) {
             whole.merge(part.clone());
         }
@@ -54,8 +56,8 @@ pub fn exhaust<D: Device>(
     while next < sweep.range.end {
         let range = next..part_end(next).min(sweep.range.end);
         let part = Sweep { range: range.clone(), ..sweep.clone() };
-        let Audited { oracle, summaries } = audit::sweep(device, programs, &part, advance, stop)?;
-        let part = Part { family: family.to_owned(), range, oracle, summaries };
+        let Audited { oracle, inputs, summaries } = audit::sweep(device, programs, &part, advance, stop)?;
+        let part = Part { family: family.to_owned(), range, oracle, inputs, summaries };
         merge(&part);
         next = part.range.end;
         journal.add(part)?;

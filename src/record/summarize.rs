@@ -130,7 +130,10 @@ fn quantity(quantity: Quantity) -> &'static str {
         Quantity::Scalar => "scalar",
         Quantity::Irradiance => "irradiance",
         Quantity::VectorIrradiance => "vector_irradiance",
+        Quantity::SolidAngle => "solid_angle",
+        Quantity::Vector { .. } => "vector",
         Quantity::UnitVector { .. } => "unit_vector",
+        Quantity::Property => "property",
         Quantity::Builtin => "builtin",
     }
 }
