@@ -13,6 +13,7 @@ use rootq::catalog::{Catalog, Variant};
 use rootq::device::vulkan::{Instance, Options, VulkanDevice};
 use rootq::device::{Device, Outputs};
 use rootq::family::{Problem, find};
+use rootq::probe::Fusing;
 
 /// Configurations a scenario: enough that a rate of 0.1 % is seen with certainty.
 const CONFIGURATIONS: u64 = 20_000;
@@ -153,6 +154,8 @@ const CLAIMS: &[(&str, Claim)] = &[
     ("stable edges and polygons survive, the published ones do not", edges_and_polygons),
     ("an edge turned round is its negative", turned_edges),
     ("two triangles are their quad, at any scale", split_quads),
+    ("approximations of builtins keep their bounds, coarse ones are caught", approximations),
+    ("the probe agrees with what variants do", probe_agrees),
     ("bases survive where they divide by no less than 1", bases),
 ];
 
@@ -333,6 +336,92 @@ fn edges_and_polygons(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// Worst ULP, or with a factor of the specification's limit that must be exceeded. Exact roots and quotients are what both
+/// drivers have; the polynomials' bounds are their authors', two ULP looser than what either driver shows.
+fn approximations(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    let audited = |id: &str, scenario: &str| {
+        let mut summaries = audit_of(rig, &variant(catalog, id)?, scenario, MAX_CHUNK)?.summaries;
+        Ok::<_, String>(summaries.swap_remove(0))
+    };
+    for (id, scenario, most) in [
+        ("div/native", "strata", 0.5),
+        ("sqrt/native", "domain", 0.5),
+        ("inversesqrt/newton", "domain", 1.5),
+        ("acos/cephes", "edge", 4.0),
+        ("asin/cephes", "edge", 4.0),
+        ("atan/cephes", "domain", 5.0),
+        ("atan2/cephes", "strata", 6.0),
+        ("exp/cephes_precise", "domain", 3.5),
+        ("exp2/cephes", "domain", 3.5),
+        ("log/cephes", "domain", 3.0),
+        ("log2/cephes", "domain", 5.0),
+        ("sin/cody_waite_precise", "domain", 4.0),
+        ("cos/cody_waite_precise", "domain", 4.0),
+    ] {
+        let summary = audited(id, scenario)?;
+        let worst = summary.outputs[0].extremes.ulp.clone().ok_or("nothing was promised")?;
+        expect(summary.failed() == 0 && worst.size <= most, || format!("{id} on {scenario}: {worst:?}"))?;
+    }
+    for (id, scenario) in [
+        ("acos/eberly_1", "domain"),
+        ("atan/eberly_5", "domain"),
+        ("inversesqrt/quake_1", "domain"),
+        ("exp2/mineiro_faster", "domain"),
+        ("log2/mineiro", "domain"),
+        ("sin/parabola", "domain"),
+    ] {
+        let failed = audited(id, scenario)?.failed();
+        expect(failed > CONFIGURATIONS / 10, || format!("{id} failed only {failed} of {CONFIGURATIONS}"))?;
+    }
+    // Whatever the specification does not promise is told apart, not failed.
+    let edge = audited("log2/native", "edge")?;
+    expect(edge.count(Verdict::Unspecified) > 0 && edge.count(Verdict::NonFinite) == 0, || {
+        format!("{:?}", edge.verdicts)
+    })
+}
+
+/// What the probe says of fma, division and subnormals is what the families' own kernels show.
+fn probe_agrees(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    let probe = || {
+        let device = rig.device.lock().map_err(|_| "an earlier test failed on this device")?;
+        rootq::probe::probe(&*device).map_err(|error| error.to_string())
+    };
+    let found = probe()?;
+    expect(found == probe()?, || "two probes differ".to_owned())?;
+    let one = |id: &str, inputs: &[f32]| {
+        Ok::<_, String>(evaluate(rig, &variant(catalog, id)?, inputs)?.swap_remove(0))
+    };
+
+    let rows = inputs(find("fma").ok_or("no family")?, "strata", 4096);
+    let (mut fused, mut separate) = (true, true);
+    for (row, result) in rows.chunks_exact(3).zip(one("fma/native", &rows)?) {
+        fused &= result == row[0].mul_add(row[1], row[2]);
+        separate &= result == row[0] * row[1] + row[2];
+    }
+    let seen = match (fused, separate) {
+        (true, _) => Fusing::Fused,
+        (_, true) => Fusing::Separate,
+        _ => Fusing::Other,
+    };
+    expect(found.fused.fma == seen, || format!("{:?} but {seen:?}", found.fused))?;
+
+    let least = f32::MIN_POSITIVE;
+    let kept = |values: Vec<f32>| values[0] != 0.0;
+    let (quotient, root) =
+        (kept(one("div/native", &[least, 4.0])?), kept(one("sqrt/native", &[least / 4.0])?));
+    let subnormals = found.subnormals;
+    expect((subnormals.quotient_result, subnormals.sqrt_operand) == (quotient, root), || {
+        format!("{subnormals:?} but {quotient} {root}")
+    })?;
+
+    let summary =
+        audit_of(rig, &variant(catalog, "div/native")?, "strata", MAX_CHUNK)?.summaries.swap_remove(0);
+    let exact = summary.outputs[0].worst.ulp <= 0.5;
+    expect(found.division.correctly_rounded == exact, || format!("{:?} but {exact}", found.division))?;
+    let messages = rig.instance.validation_messages();
+    expect(messages.is_empty(), || format!("validation: {messages:?}"))
 }
 
 /// Errors of 1e-6 are ten times those that either driver shows.
