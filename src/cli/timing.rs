@@ -18,8 +18,8 @@ use crate::family::{Problem, Scenario};
 /// Options of timing.
 #[derive(Args, Debug)]
 pub(super) struct TimingArguments {
-    /// Seconds of timing each regime, unless intervals are narrow before; 11 rounds over all variants are taken in any
-    /// case [default: 3 for bench, 0.3 for run]
+    /// Seconds for each of streaming, coherent and divergent times, unless intervals are narrow before; 11 rounds over
+    /// all variants are taken in any case [default: 3 for bench, 0.3 for run]
     #[arg(long, value_name = "S")]
     seconds: Option<f64>,
     /// Only this regime; may be given again [default: both]
