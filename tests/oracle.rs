@@ -106,7 +106,7 @@ fn check(problem: &dyn Problem) -> usize {
             };
             compared += 1;
             match output.quantity {
-                Quantity::Magnitude | Quantity::Scalar | Quantity::Irradiance => {
+                Quantity::Magnitude | Quantity::Scalar | Quantity::Irradiance | Quantity::Coordinate => {
                     let error = (got[0] - expected[0]).abs();
                     let allowed = scalar_tolerance(family, name, row) * expected[0].abs();
                     assert!(error <= allowed, "{place}: {name} {} for {}", got[0], expected[0]);

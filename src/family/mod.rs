@@ -13,6 +13,7 @@ mod ltc_sphere;
 mod ltc_strip;
 mod orthonormal_basis;
 mod problem;
+mod ray_ellipse;
 mod sym3_eigen;
 
 pub use problem::{
@@ -33,6 +34,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &ltc_sphere::LtcSphere,
     &ltc_strip::LtcStrip,
     &orthonormal_basis::OrthonormalBasis,
+    &ray_ellipse::RayEllipse,
     &sym3_eigen::Sym3Eigen,
 ];
 

@@ -96,6 +96,8 @@ pub enum Quantity {
     Irradiance,
     /// A vector of irradiances, such as one edge's contribution: absolute error, as the distance of the two.
     VectorIrradiance,
+    /// A coordinate within -1..1, such as a place along a semi-axis: absolute error.
+    Coordinate,
     /// A direction: angle between the two in radians, and a length of 1. With `sign_free`, both signs are right.
     UnitVector { sign_free: bool },
     /// Whatever has a property together with the inputs and other results, such as a basis of a plane: absolute, the

@@ -78,7 +78,7 @@ pub struct Family {
 pub struct Output {
     pub name: String,
     /// How its error is measured: `magnitude` and `scalar` (relative), `unit_vector` (radians), `irradiance` and
-    /// `vector_irradiance` (absolute, the full hemisphere being 1), `property` (the largest residual of what must hold).
+    /// `vector_irradiance` (absolute, the full hemisphere being 1), `coordinate` (absolute), `property` (the largest residual of what must hold).
     pub quantity: String,
     pub tolerance: f64,
     pub headline: bool,

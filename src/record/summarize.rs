@@ -114,6 +114,7 @@ fn quantity(quantity: Quantity) -> &'static str {
         Quantity::Scalar => "scalar",
         Quantity::Irradiance => "irradiance",
         Quantity::VectorIrradiance => "vector_irradiance",
+        Quantity::Coordinate => "coordinate",
         Quantity::UnitVector { .. } => "unit_vector",
         Quantity::Property => "property",
     }
