@@ -21,6 +21,7 @@ pub mod audit;
 pub mod bench;
 pub mod catalog;
 pub mod cli;
+pub mod decide;
 pub mod device;
 pub mod family;
 pub mod fit;

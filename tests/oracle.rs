@@ -76,6 +76,12 @@ fn direction_tolerance(family: &str, row: &Row) -> f64 {
     }
 }
 
+/// The distance allowed of a vector that has a length, relative to it.
+fn vector_tolerance(family: &str, output: &str, row: &Row) -> f64 {
+    _ = (family, output, row);
+    SCALAR
+}
+
 fn check(problem: &dyn Problem) -> usize {
     let family = problem.name();
     let signature = problem.signature();
@@ -106,7 +112,11 @@ fn check(problem: &dyn Problem) -> usize {
             };
             compared += 1;
             match output.quantity {
-                Quantity::Magnitude | Quantity::Scalar | Quantity::Irradiance | Quantity::Coordinate => {
+                Quantity::Magnitude
+                | Quantity::Scalar
+                | Quantity::Irradiance
+                | Quantity::Coordinate
+                | Quantity::SolidAngle => {
                     let error = (got[0] - expected[0]).abs();
                     let allowed = scalar_tolerance(family, name, row) * expected[0].abs();
                     assert!(error <= allowed, "{place}: {name} {} for {}", got[0], expected[0]);
@@ -132,6 +142,16 @@ fn check(problem: &dyn Problem) -> usize {
                     let error = (got - expected).length();
                     let allowed = scalar_tolerance(family, name, row) * expected.length();
                     assert!(error <= allowed, "{place}: {name} {got} for {expected}");
+                }
+                Quantity::Vector { sign_free } => {
+                    let (got, expected) = (glam::DVec3::from_slice(got), glam::DVec3::from_slice(&expected));
+                    let sign = if sign_free && got.dot(expected) < 0.0 { -1.0 } else { 1.0 };
+                    let error = (got - sign * expected).length();
+                    let allowed = vector_tolerance(family, name, row) * expected.length();
+                    assert!(
+                        error <= allowed,
+                        "{place}: {name} {got} for {expected}: {error:e} > {allowed:e}"
+                    );
                 }
                 Quantity::UnitVector { sign_free } => {
                     let (got, expected) = (glam::DVec3::from_slice(got), glam::DVec3::from_slice(&expected));

@@ -65,6 +65,10 @@ pub fn measure(output: &Output, values: &[f32], truth: &[f64], sensitivity: f64)
             vector_irradiance(output, value, DVec3::from_slice(truth), sensitivity)
         }
         Quantity::Coordinate => coordinate(output, values[0], truth[0], sensitivity),
+        Quantity::SolidAngle => solid_angle(output, values[0], truth[0], sensitivity),
+        Quantity::Vector { sign_free } => {
+            sized_vector(output, sign_free, vector(values), DVec3::from_slice(truth), sensitivity)
+        }
         Quantity::UnitVector { sign_free } => {
             unit_vector(output, sign_free, vector(values), DVec3::from_slice(truth), sensitivity)
         }
@@ -133,6 +137,47 @@ fn coordinate(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Meas
     Measure::graded(error, error, [f32_spacing(truth), f16_spacing(truth)], output, sensitivity)
 }
 
+fn solid_angle(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Measure {
+    const SPHERE: f64 = 4.0 * std::f64::consts::PI;
+    let mut measure = relative(output, value, truth, sensitivity);
+    // No rounding of the inputs makes a solid angle negative or more than the sphere.
+    if measure.verdict != Verdict::NonFinite {
+        if f64::from(value) < -FLUSH {
+            measure.verdict = Verdict::WrongSign;
+        } else if f64::from(value) > SPHERE * (1.0 + output.tolerance) {
+            measure.verdict = Verdict::OutOfRange;
+        }
+    }
+    measure
+}
+
+fn sized_vector(output: &Output, sign_free: bool, value: DVec3, truth: DVec3, sensitivity: f64) -> Measure {
+    if !value.is_finite() {
+        return Measure::failed(Verdict::NonFinite);
+    }
+    let size = truth.length();
+    let absolute = if sensitivity.is_infinite() {
+        (value.length() - size).abs()
+    } else if sign_free && value.dot(truth) < 0.0 {
+        (value + truth).length()
+    } else {
+        (value - truth).length()
+    };
+    let error = (absolute - FLUSH).max(0.0) / size.max(FLUSH);
+    // What is left where the direction is free is a length, which no rounding of the inputs makes free as well.
+    let explained = if sensitivity.is_infinite() { size } else { sensitivity };
+    let mut measure =
+        Measure::graded(error, absolute, [f32_spacing(size), f16_spacing(size)], output, explained);
+    // First order understates large turns, as for directions.
+    if measure.verdict == Verdict::Inaccurate && size > 0.0 && sensitivity.is_finite() {
+        let double = 2.0 * EXPLAINED_BY_ROUNDING * UNIT_ROUNDOFF * sensitivity / size;
+        if double >= 1.0 || error <= 0.5 * f64::asin(double) {
+            measure.verdict = Verdict::IllConditioned;
+        }
+    }
+    measure
+}
+
 fn relative(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Measure {
     /// What rounds to infinity: the largest f32 and half its spacing.
     const OVERFLOW: f64 = f32::MAX as f64 * (1.0 + UNIT_ROUNDOFF / 2.0);
@@ -150,7 +195,7 @@ fn relative(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Measur
         Measure::graded(error, absolute, [f32_spacing(truth), f16_spacing(truth)], output, sensitivity);
     // Blaming a sign needs a truth whose sign is certain: not one that rounding the inputs may turn.
     let wrong =
-        if output.quantity == Quantity::Magnitude { value < 0.0 } else { f64::from(value) * truth < 0.0 };
+        if output.quantity == Quantity::Scalar { f64::from(value) * truth < 0.0 } else { value < 0.0 };
     if wrong && measure.verdict == Verdict::Inaccurate {
         measure.verdict = Verdict::WrongSign;
     }
@@ -305,6 +350,47 @@ mod tests {
         assert_eq!(verdict(-1.001_1, -1.0, 1.0), Verdict::Inaccurate);
         assert_eq!(verdict(0.002, 0.0, 1e6), Verdict::IllConditioned);
         assert_eq!(verdict(f32::INFINITY, 1.0, f64::INFINITY), Verdict::NonFinite);
+    }
+
+    #[test]
+    fn solid_angles() {
+        let angle = Output::new("w", Type::Float, Quantity::SolidAngle, 1e-3);
+        let verdict =
+            |value: f32, truth, sensitivity| measure(&angle, &[value], &[truth], sensitivity).verdict;
+        let sphere = 4.0 * std::f64::consts::PI;
+        assert_eq!(verdict(0.100_09, 0.1, 1.0), Verdict::Ok);
+        assert_eq!(verdict(0.100_11, 0.1, 1.0), Verdict::Inaccurate);
+        assert_eq!(verdict(0.2, 0.1, 1.0 / UNIT_ROUNDOFF), Verdict::IllConditioned);
+        assert_eq!(verdict(-1e-9, 1e-9, 1.0), Verdict::WrongSign);
+        assert_eq!(verdict(-1e-39, 0.0, 0.0), Verdict::Ok);
+        assert_eq!(verdict(1e-12, 0.0, 0.0), Verdict::Inaccurate);
+        assert_eq!(verdict(12.567, sphere, 0.0), Verdict::Ok);
+        assert_eq!(verdict(12.58, sphere, 0.0), Verdict::OutOfRange);
+        assert_eq!(verdict(f32::INFINITY, sphere, 0.0), Verdict::NonFinite);
+    }
+
+    #[test]
+    fn vectors_that_have_a_length() {
+        let axis = Output::new("a", Type::Vec3, Quantity::Vector { sign_free: true }, 1e-3);
+        let center = Output::new("c", Type::Vec3, Quantity::Vector { sign_free: false }, 1e-3);
+        let verdict = |output: &Output, value: [f32; 3], sensitivity| {
+            measure(output, &value, &[0.0, 0.0, 2.0], sensitivity).verdict
+        };
+        assert_eq!(verdict(&axis, [0.0, 0.0, -2.0], 1.0), Verdict::Ok);
+        assert_eq!(verdict(&center, [0.0, 0.0, -2.0], 1.0), Verdict::Inaccurate);
+        assert_eq!(verdict(&center, [0.001, 0.0, 2.001], 1.0), Verdict::Ok);
+        assert_eq!(verdict(&center, [0.0, 0.0, 2.003], 1.0), Verdict::Inaccurate);
+        assert_eq!(verdict(&center, [0.0, 0.0, 2.003], 0.001 / UNIT_ROUNDOFF), Verdict::IllConditioned);
+        // A turn of any size, where twice four roundings do as much as the vector is long; a little less, where not.
+        assert_eq!(verdict(&axis, [2.0, 0.0, 0.0], 0.3 / UNIT_ROUNDOFF), Verdict::IllConditioned);
+        assert_eq!(verdict(&axis, [2.0, 0.0, 0.0], 0.2 / UNIT_ROUNDOFF), Verdict::Inaccurate);
+        // The direction is free, the length is not.
+        assert_eq!(verdict(&axis, [2.0, 0.0, 0.0], f64::INFINITY), Verdict::Ok);
+        assert_eq!(verdict(&axis, [1.9, 0.0, 0.0], f64::INFINITY), Verdict::Inaccurate);
+        let nothing = |value: [f32; 3]| measure(&center, &value, &[0.0; 3], 0.0).verdict;
+        assert_eq!(nothing([0.0, -1e-39, 0.0]), Verdict::Ok);
+        assert_eq!(nothing([0.0, 1e-30, 0.0]), Verdict::Inaccurate);
+        assert_eq!(nothing([0.0, f32::NAN, 0.0]), Verdict::NonFinite);
     }
 
     #[test]

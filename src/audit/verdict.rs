@@ -18,9 +18,9 @@ pub enum Verdict {
     NotEnclosing,
     /// A direction whose length is not 1.
     NotUnit,
-    /// A value of the wrong sign, such as a negative length.
+    /// A value of the wrong sign, such as a negative length or solid angle.
     WrongSign,
-    /// A share of the whole that is negative or above all there is.
+    /// A share of the whole that is negative or above all there is; a solid angle above 4 pi.
     OutOfRange,
     /// A miss for a hit, or a hit for a miss, and further from the border than rounding the inputs would explain.
     Missed,

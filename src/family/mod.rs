@@ -1,9 +1,11 @@
 //! The problems: one file each, and the slice that lists them.
 
 mod cone_axes;
+mod disk_solid_angle;
 mod edge_integral;
 mod ellipse_axes;
 mod horizon_sphere;
+mod latlong_solid_angle;
 mod ltc_cylinder;
 mod ltc_disk;
 mod ltc_ellipsoid;
@@ -12,6 +14,8 @@ mod ltc_polygon;
 mod ltc_sphere;
 mod ltc_strip;
 mod orthonormal_basis;
+mod pixel_cube;
+mod pixel_ortho;
 mod problem;
 mod ray_ellipse;
 mod sym3_eigen;
@@ -23,9 +27,11 @@ pub use problem::{
 /// Every family, sorted by name.
 pub static FAMILIES: &[&dyn Problem] = &[
     &cone_axes::ConeAxes,
+    &disk_solid_angle::DiskSolidAngle,
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
     &horizon_sphere::HorizonSphere,
+    &latlong_solid_angle::LatlongSolidAngle,
     &ltc_cylinder::LtcCylinder,
     &ltc_disk::LtcDisk,
     &ltc_ellipsoid::LtcEllipsoid,
@@ -34,6 +40,8 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &ltc_sphere::LtcSphere,
     &ltc_strip::LtcStrip,
     &orthonormal_basis::OrthonormalBasis,
+    &pixel_cube::PixelCube,
+    &pixel_ortho::PixelOrtho,
     &ray_ellipse::RayEllipse,
     &sym3_eigen::Sym3Eigen,
 ];

@@ -98,6 +98,12 @@ pub enum Quantity {
     VectorIrradiance,
     /// A coordinate within -1..1, such as a place along a semi-axis: absolute error.
     Coordinate,
+    /// A solid angle in steradians: relative error, within 0..4 pi.
+    SolidAngle,
+    /// A vector that has a length, such as a centre or a semi-axis: distance of the two over the truth's length. With
+    /// `sign_free`, both signs are right. Where the sensitivity is infinite only the direction is undefined, and the
+    /// lengths are compared.
+    Vector { sign_free: bool },
     /// A direction: angle between the two in radians, and a length of 1. With `sign_free`, both signs are right.
     UnitVector { sign_free: bool },
     /// Whatever has a property together with the inputs and other results, such as a basis of a plane: absolute, the
@@ -191,7 +197,7 @@ impl Truth {
     pub fn scalar(&mut self, output: usize, value: f64, bound: f64, sensitivity: f64) {
         self.values[self.offset(output)] = value;
         self.sensitivities[output] = sensitivity;
-        self.worst_bound = self.worst_bound.max(bound / f32_spacing(value));
+        self.certify(value, bound / f32_spacing(value));
     }
 
     /// Sets a vector that has a length. `bound` is the absolute error bound of `value` as the distance of the two, counted
@@ -202,7 +208,7 @@ impl Truth {
         self.values[offset..offset + 3].copy_from_slice(&value.to_array());
         self.sensitivities[output] = sensitivity;
         if sensitivity.is_finite() {
-            self.worst_bound = self.worst_bound.max(bound / f32_spacing(value.length()));
+            self.certify(value.length(), bound / f32_spacing(value.length()));
         }
     }
 
@@ -213,8 +219,14 @@ impl Truth {
         self.values[offset..offset + 3].copy_from_slice(&value.to_array());
         self.sensitivities[output] = sensitivity;
         if sensitivity.is_finite() {
-            self.worst_bound = self.worst_bound.max(bound / UNIT_ROUNDOFF);
+            self.certify(value.length(), bound / UNIT_ROUNDOFF);
         }
+    }
+
+    /// A value or a bound that is not a number certifies nothing.
+    fn certify(&mut self, value: f64, bound: f64) {
+        let bound = if value.is_nan() || bound.is_nan() { f64::INFINITY } else { bound };
+        self.worst_bound = self.worst_bound.max(bound);
     }
 
     /// Sets how far the configuration is from the other class, a hit from a miss: the least relative change of every
@@ -265,3 +277,22 @@ impl Truth {
 
 /// An oracle is certified where its bound is at most this much of the f32 spacing.
 pub const CERTIFIED: f64 = 1.0 / 16.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `f64::max` would drop NaN silently.
+    #[test]
+    fn what_is_not_a_number_is_not_certified() {
+        const OUTPUTS: [Output; 1] = [Output::new("x", Type::Float, Quantity::Scalar, 1e-3)];
+        let bound = |value, bound| {
+            let mut truth = Truth::new(&OUTPUTS);
+            truth.scalar(0, value, bound, 1.0);
+            truth.worst_bound()
+        };
+        assert!(bound(1.0, 1e-12) <= CERTIFIED);
+        assert!(bound(f64::NAN, 0.0) > CERTIFIED);
+        assert!(bound(1.0, f64::NAN) > CERTIFIED);
+    }
+}

@@ -115,6 +115,8 @@ fn quantity(quantity: Quantity) -> &'static str {
         Quantity::Irradiance => "irradiance",
         Quantity::VectorIrradiance => "vector_irradiance",
         Quantity::Coordinate => "coordinate",
+        Quantity::SolidAngle => "solid_angle",
+        Quantity::Vector { .. } => "vector",
         Quantity::UnitVector { .. } => "unit_vector",
         Quantity::Property => "property",
     }

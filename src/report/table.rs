@@ -175,7 +175,7 @@ fn graded(rate: &Rate) -> Cell {
 
 fn tolerance(tolerance: f64, quantity: &str) -> String {
     match quantity {
-        "magnitude" | "scalar" => format!("{} %", 100.0 * tolerance),
+        "magnitude" | "scalar" | "solid_angle" | "vector" => format!("{} %", 100.0 * tolerance),
         "unit_vector" => format!("{} mrad", 1e3 * tolerance),
         _ => format!("{tolerance}"),
     }
@@ -245,7 +245,7 @@ fn clock(timing: &Timing) -> &'static str {
     }
 }
 
-fn table<T: ToString>(header: &[T], colour: bool) -> Table {
+pub(super) fn table<T: ToString>(header: &[T], colour: bool) -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING).set_content_arrangement(ContentArrangement::Disabled);
     if colour {
@@ -257,13 +257,13 @@ fn table<T: ToString>(header: &[T], colour: bool) -> Table {
     table
 }
 
-fn right_align(table: &mut Table) {
+pub(super) fn right_align(table: &mut Table) {
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
 }
 
-fn lines(table: &Table) -> String {
+pub(super) fn lines(table: &Table) -> String {
     let mut text = String::new();
     for line in table.lines() {
         text.push_str(line.trim_end());
