@@ -4,6 +4,7 @@ mod cone_axes;
 mod disk_solid_angle;
 mod edge_integral;
 mod ellipse_axes;
+mod ellipse_bounds;
 mod horizon_sphere;
 mod latlong_solid_angle;
 mod ltc_cylinder;
@@ -30,6 +31,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &disk_solid_angle::DiskSolidAngle,
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
+    &ellipse_bounds::EllipseBounds,
     &horizon_sphere::HorizonSphere,
     &latlong_solid_angle::LatlongSolidAngle,
     &ltc_cylinder::LtcCylinder,
