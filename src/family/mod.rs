@@ -4,6 +4,8 @@ mod cone_axes;
 mod disk_solid_angle;
 mod edge_integral;
 mod ellipse_axes;
+mod ellipsoid_ellipse;
+mod ellipsoid_scenes;
 mod horizon_sphere;
 mod latlong_solid_angle;
 mod ltc_cylinder;
@@ -28,6 +30,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &disk_solid_angle::DiskSolidAngle,
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
+    &ellipsoid_ellipse::EllipsoidEllipse,
     &horizon_sphere::HorizonSphere,
     &latlong_solid_angle::LatlongSolidAngle,
     &ltc_cylinder::LtcCylinder,

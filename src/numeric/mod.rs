@@ -15,6 +15,7 @@ pub mod line_integral;
 pub mod plane_rectangle;
 pub mod polygon_irradiance;
 pub mod products;
+pub mod rotation;
 pub mod spacing;
 pub mod symmetric3;
 pub mod twofold;
