@@ -4,8 +4,10 @@ mod cone_axes;
 mod disk_solid_angle;
 mod edge_integral;
 mod ellipse_axes;
+mod ellipse_solid_angle;
 mod ellipsoid_ellipse;
 mod ellipsoid_scenes;
+mod ellipsoid_solid_angle;
 mod horizon_sphere;
 mod latlong_solid_angle;
 mod ltc_cylinder;
@@ -30,7 +32,9 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &disk_solid_angle::DiskSolidAngle,
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
+    &ellipse_solid_angle::EllipseSolidAngle,
     &ellipsoid_ellipse::EllipsoidEllipse,
+    &ellipsoid_solid_angle::EllipsoidSolidAngle,
     &horizon_sphere::HorizonSphere,
     &latlong_solid_angle::LatlongSolidAngle,
     &ltc_cylinder::LtcCylinder,

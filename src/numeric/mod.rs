@@ -4,6 +4,7 @@
 pub mod binary16;
 pub mod clipped_ellipse;
 pub mod clipped_sphere;
+pub mod cone_solid_angle;
 pub mod cubic;
 pub mod cylinder_silhouette;
 pub mod disk_rectangle;
