@@ -20,3 +20,4 @@ pub mod rotation;
 pub mod spacing;
 pub mod symmetric3;
 pub mod twofold;
+pub mod vulkan_limits;
