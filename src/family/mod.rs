@@ -12,6 +12,10 @@ mod div;
 mod edge_integral;
 mod ellipse_axes;
 mod ellipse_bounds;
+mod ellipse_solid_angle;
+mod ellipsoid_ellipse;
+mod ellipsoid_scenes;
+mod ellipsoid_solid_angle;
 mod exp;
 mod exp2;
 mod fma;
@@ -57,6 +61,9 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
     &ellipse_bounds::EllipseBounds,
+    &ellipse_solid_angle::EllipseSolidAngle,
+    &ellipsoid_ellipse::EllipsoidEllipse,
+    &ellipsoid_solid_angle::EllipsoidSolidAngle,
     &exp::EXP,
     &exp2::EXP2,
     &fma::FMA,

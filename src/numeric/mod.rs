@@ -4,6 +4,7 @@
 pub mod binary16;
 pub mod clipped_ellipse;
 pub mod clipped_sphere;
+pub mod cone_solid_angle;
 pub mod cubic;
 pub mod cylinder_silhouette;
 pub mod disk_rectangle;
@@ -15,6 +16,7 @@ pub mod line_integral;
 pub mod plane_rectangle;
 pub mod polygon_irradiance;
 pub mod products;
+pub mod rotation;
 pub mod spacing;
 pub mod symmetric3;
 pub mod twofold;
