@@ -4,15 +4,13 @@
 #ifndef ROOTQ_ARCTANGENT
 #define ROOTQ_ARCTANGENT
 
-// The angle of (x, y) in -pi..pi, relative error below 3e-7; 0 at the origin. Squares are not formed.
+// The angle of (x, y), y >= 0, in 0..pi: relative error below 3e-7; 0 at the origin. Squares are not formed.
 //
 // atan(r)/r on 0..1 is a polynomial of degree 8 in r^2, near-minimax with relative error 1.6e-8.
-float arctangent(float y, float x)
+float arctangent_upper(float y, float x)
 {
     float ax = abs(x);
-    float ay = abs(y);
-    float longer = max(ax, ay);
-    float r = longer > 0.0 ? min(ax, ay) / longer : 0.0;
+    float r = min(ax, y) / max(max(ax, y), 1.17549435e-38);
     float s = r * r;
     float p = 0.00284988026;
     p = p * s - 0.0160685916;
@@ -24,8 +22,14 @@ float arctangent(float y, float x)
     p = p * s - 0.333330733;
     p = p * s + 0.999999985;
     float angle = r * p;
-    angle = ay > ax ? 1.57079632679 - angle : angle;
-    angle = x < 0.0 ? 3.14159265359 - angle : angle;
+    angle = y > ax ? 1.57079632679 - angle : angle;
+    return x < 0.0 ? 3.14159265359 - angle : angle;
+}
+
+// The angle of (x, y) in -pi..pi.
+float arctangent(float y, float x)
+{
+    float angle = arctangent_upper(abs(y), x);
     return y < 0.0 ? -angle : angle;
 }
 
