@@ -41,8 +41,7 @@ float clipped_log_ratio(float x, float z, float square)
     return (small ? p : 0.34657359 * float(n) + r * p) / (small ? x : z);
 }
 
-// `crossings` is the cosine that belongs to the sine 2 v sqrt(szz) of dphi, the angle between the crossings' azimuths.
-float clipped_ellipse(DiskCone cone, float szz, float crossings)
+float clipped_ellipse(DiskCone cone, float szz)
 {
     float l = cone.l;
     float root = sqrt(szz);
@@ -60,7 +59,8 @@ float clipped_ellipse(DiskCone cone, float szz, float crossings)
     float w2 = rest - w1;
 
     float sine = 2.0 * cone.root * root * cone.up;
-    float cosine = l * ((l + cone.sum) * w3 - szz) - cone.product * rest;
+    float swing = l * (l + cone.sum) * w3 - cone.product * rest;
+    float cosine = swing - l * szz;
     float turn = arctangent_upper(abs(sine), cosine);
     turn = sine > 0.0 ? CLIPPED_TURN - turn : turn;
 
@@ -74,7 +74,7 @@ float clipped_ellipse(DiskCone cone, float szz, float crossings)
     float second = (narrow ? 1.0 : arctangent_upper(y, c)) / (narrow ? c : y);
 
     float scale = 2.0 * cone.volume * root;
-    float dphi = arctangent_upper(scale, crossings);
+    float dphi = arctangent_upper(scale, swing + l * szz);
     float sum = cone.form * cone.up * cone.inverse * turn + dphi - scale * (w1 * first + w2 * second);
     return clamp(sum * (1.0 / CLIPPED_TURN), 0.0, 1.0);
 }

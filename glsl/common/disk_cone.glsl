@@ -101,8 +101,8 @@ float confocal_start(Confocal k)
     float split = sqrt(max(k.sum * k.sum - 4.0 * k.product, 0.0));
     float h1 = 0.5 * (k.sum + split);
     float h2 = k.product / max(h1, DISK_SMALLEST);
-    float p = clamp((k.gamma - h2 * k.alpha) / max(split, DISK_SMALLEST), 0.0, k.alpha);
-    return confocal_start(p, h1, k.alpha - p, h2, k.z);
+    float q = clamp((k.beta - h2 * k.alpha) / max(split, DISK_SMALLEST), 0.0, k.alpha);
+    return confocal_start(k.alpha - q, h1, q, h2, k.z);
 }
 
 float confocal_lambda(Confocal k, float l)

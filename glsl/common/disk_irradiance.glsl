@@ -17,9 +17,7 @@ float disk_irradiance(DiskFrame f, DiskCone cone)
 #ifdef EXACT_HORIZON
     float szz = (f.a3 - f.c3) * (f.a3 + f.c3);
     if (szz > 0.0) {
-        float middle = f.c1 * f.a3 - f.a1 * f.c3;
-        float height = f.h * f.cz;
-        result = clipped_ellipse(cone, szz, middle * middle + height * height - f.b * f.b * szz);
+        result = clipped_ellipse(cone, szz);
     } else {
         result = f.c3 > 0.0 ? min(cone.form * cone.up * cone.inverse, 1.0) : 0.0;
     }
