@@ -12,12 +12,6 @@
 
 #include "common/disk_frame.glsl"
 
-// The start is within a factor of two of the root but for one light in a hundred, each step squares the error; what two
-// of them leave is beyond 1e-5 for less than one light in a million.
-#ifndef DISK_STEPS
-#define DISK_STEPS 2
-#endif
-
 struct Confocal {
     float z;
     float sum;       // h1 + h2
@@ -105,12 +99,21 @@ float confocal_start(Confocal k)
     return confocal_start(k.alpha - q, h1, q, h2, k.z);
 }
 
+// l from a start: a step that is safe from anywhere, and one of Halley's on
+//
+//     l^3 + (h1 + h2 - |C|^2) l^2 + (h1 h2 - beta - z (h1 + h2)) l - z h1 h2 = 0
+//
+// What they leave is 3e-4 of l at worst, and 1e-6 for one light in a thousand; the irradiance feels less of it, since
+// the cone's other measures follow from l.
 float confocal_lambda(Confocal k, float l)
 {
-    for (int i = 0; i < DISK_STEPS; ++i) {
-        l = confocal_step(k, l);
-    }
-    return l;
+    l = confocal_step(k, l);
+    float c2 = k.sum - k.alpha - k.z;
+    float c1 = k.product - k.beta - k.z * k.sum;
+    float value = ((l + c2) * l + c1) * l - k.z * k.product;
+    float slope = (3.0 * l + 2.0 * c2) * l + c1;
+    float bend = 3.0 * l + c2;
+    return max(l - value * slope / max(slope * slope - value * bend, DISK_SMALLEST), k.z);
 }
 
 #endif

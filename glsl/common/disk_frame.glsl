@@ -72,11 +72,12 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     float far = disk_longest(C);
     float long1 = disk_longest(V1);
     float long2 = disk_longest(V2);
-    float most1 = DISK_ENDLESS * max(long2, far);
-    float most2 = DISK_ENDLESS * max(long1, far);
-    float cut1 = long1 > most1 ? most1 / long1 : 1.0;
-    float cut2 = long2 > most2 ? most2 / long2 : 1.0;
-    scale = scale_to_one(max(far, max(long1 * cut1, long2 * cut2)));
+    // At most one of them is endless.
+    float longer = max(long1, long2);
+    float cut = min(DISK_ENDLESS * max(min(long1, long2), far) / max(longer, DISK_SMALLEST), 1.0);
+    scale = scale_to_one(max(far, max(min(long1, long2), longer * cut)));
+    float cut1 = long1 < longer ? 1.0 : cut;
+    float cut2 = long1 < longer ? cut : 1.0;
     cut1 *= scale;
     cut2 *= scale;
     C *= scale;
