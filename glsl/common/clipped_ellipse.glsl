@@ -45,8 +45,8 @@ float clipped_ellipse(DiskCone cone, float szz)
 {
     float l = cone.l;
     float root = sqrt(szz);
-    float w3 = cone.up * cone.up * cone.inverse;
-    float rest = cone.level2 * cone.inverse;
+    float w3 = cone.height2;
+    float rest = cone.level2;
     float k = sqrt(max(cone.sum * cone.sum - 4.0 * cone.product, 0.0));
     float e1 = 0.5 * (cone.sum + k);
     float e3 = cone.product / max(e1, DISK_SMALLEST);
@@ -58,7 +58,7 @@ float clipped_ellipse(DiskCone cone, float szz)
     float w1 = k1 / max(k, DISK_SMALLEST);
     float w2 = rest - w1;
 
-    float sine = 2.0 * cone.root * root * cone.up;
+    float sine = 2.0 * root * cone.slant;
     float swing = l * (l + cone.sum) * w3 - cone.product * rest;
     float cosine = swing - l * szz;
     float turn = arctangent_upper(abs(sine), cosine);
@@ -75,7 +75,7 @@ float clipped_ellipse(DiskCone cone, float szz)
 
     float scale = 2.0 * cone.volume * root;
     float dphi = arctangent_upper(scale, swing + l * szz);
-    float sum = cone.form * cone.up * cone.inverse * turn + dphi - scale * (w1 * first + w2 * second);
+    float sum = cone.volume * (cone.rise * turn) + dphi - scale * (w1 * first + w2 * second);
     return clamp(sum * (1.0 / CLIPPED_TURN), 0.0, 1.0);
 }
 

@@ -58,15 +58,15 @@ struct DiskCone {
     float l;
     float sum;        // e1 + e3
     float product;    // e1 e3
-    float root;       // sqrt((h1 + l) (h2 + l))
     float volume;     // |[C, V1, V2]|
-    float up;         // height of a vector w along the mean direction
-    float level2;     // the square of its horizontal part
-    float inverse;    // 1/|w|^2
-    float form;       // irradiance through a plane across w, times |w|
+    float height2;    // squares of the unit mean direction's height and horizontal part
+    float level2;
+    float rise;       // v W3/sqrt(l A B) over the volume, in the notation of clipped_ellipse.glsl
+    float slant;      // sqrt(l A B) W3
 };
 
-// From l and the part of w in the light's plane over l/((h1 + l) (h2 + l)); its part across is the height over the plane.
+// From l and the mean direction's part in the light's plane, over l/((h1 + l) (h2 + l)) if its part across is the height over
+// the plane.
 DiskCone disk_cone(DiskFrame f, Confocal k, float l, vec2 plane)
 {
     float square = (l + k.sum) * l + k.product;
@@ -74,17 +74,19 @@ DiskCone disk_cone(DiskFrame f, Confocal k, float l, vec2 plane)
     float inverse = inverse_root * inverse_root;
     plane *= l * inverse;
     float side = plane.y * f.slope.x + f.cz * f.slope.y;
+    float up = plane.y * f.slope.y - f.cz * f.slope.x;
+    float level2 = plane.x * plane.x + side * side;
+    float inverse_w = 1.0 / (level2 + up * up);
 
     DiskCone cone;
     cone.l = l;
     cone.sum = max(k.sum - (l * k.gamma + k.product * k.alpha) * inverse, 0.0);
     cone.product = k.product * k.z / l;
-    cone.root = square * inverse_root;
     cone.volume = f.area * abs(f.cz);
-    cone.up = plane.y * f.slope.y - f.cz * f.slope.x;
-    cone.level2 = plane.x * plane.x + side * side;
-    cone.inverse = 1.0 / (cone.level2 + cone.up * cone.up);
-    cone.form = cone.volume * inverse_root;
+    cone.height2 = up * up * inverse_w;
+    cone.level2 = level2 * inverse_w;
+    cone.rise = inverse_root * (up * inverse_w);
+    cone.slant = square * inverse_root * up;
     return cone;
 }
 
@@ -99,21 +101,24 @@ float confocal_start(Confocal k)
     return confocal_start(k.alpha - q, h1, q, h2, k.z);
 }
 
-// l from a start: a step that is safe from anywhere, and one of Halley's on
+// l from a start: a step that is safe from anywhere, then one of Halley's and one of Newton's on
 //
 //     l^3 + (h1 + h2 - |C|^2) l^2 + (h1 h2 - beta - z (h1 + h2)) l - z h1 h2 = 0
 //
-// What they leave is 3e-4 of l at worst, and 1e-6 for one light in a thousand; the irradiance feels less of it, since
-// the cone's other measures follow from l.
+// They leave 2e-3, 1e-7 and 1e-14 of l for one light in a thousand, and at worst 0.06, 3e-4 and 1e-7.
 float confocal_lambda(Confocal k, float l)
 {
     l = confocal_step(k, l);
     float c2 = k.sum - k.alpha - k.z;
     float c1 = k.product - k.beta - k.z * k.sum;
-    float value = ((l + c2) * l + c1) * l - k.z * k.product;
+    float c0 = k.product * k.z;
+    float value = ((l + c2) * l + c1) * l - c0;
     float slope = (3.0 * l + 2.0 * c2) * l + c1;
     float bend = 3.0 * l + c2;
-    return max(l - value * slope / max(slope * slope - value * bend, DISK_SMALLEST), k.z);
+    l = max(l - value * slope / max(slope * slope - value * bend, DISK_SMALLEST), k.z);
+    value = ((l + c2) * l + c1) * l - c0;
+    slope = (3.0 * l + 2.0 * c2) * l + c1;
+    return max(l - value / max(slope, DISK_SMALLEST), k.z);
 }
 
 #endif

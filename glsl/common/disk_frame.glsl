@@ -93,18 +93,19 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     vec2 up = vec2(V1.z, V2.z);
     float up_square = dot(up, up);
     bool level = up_square < 1.0e-36;
-    float inverse_a3 = inversesqrt(max(up_square, DISK_SMALLEST));
+    float inverse_a3 = level ? 1.0 : inversesqrt(max(up_square, DISK_SMALLEST));
     up = level ? vec2(1.0, 0.0) : up * inverse_a3;
-    // V1.z V2 - V2.z V1 is N turned by a right angle.
-    vec2 B = level ? V2.xy : vec2(N.y, -N.x) * inverse_a3;
+    f.a3 = level ? 0.0 : up_square * inverse_a3;
+    // B a3 = V1.z V2 - V2.z V1 is N turned by a right angle.
+    vec2 B = level ? V2.xy : vec2(N.y, -N.x);
     float b2 = dot(B, B);
     float inverse_b = inversesqrt(max(b2, DISK_SMALLEST));
     B *= inverse_b;
+    f.b = b2 * inverse_b * inverse_a3;
+    inverse_b *= level ? 1.0 : f.a3;
     float n2 = dot(N, N);
     float inverse_n = inversesqrt(max(n2, DISK_SMALLEST));
     f.a1 = up.x * dot(B, V1.xy) + up.y * dot(B, V2.xy);
-    f.a3 = level ? 0.0 : up_square * inverse_a3;
-    f.b = b2 * inverse_b;
     f.area = n2 > 1.0e-36 ? n2 * inverse_n : 0.0;
     f.h = f.area * inverse_b;
     f.slope = vec2(-N.z, f.b * f.a3) * inverse_n;

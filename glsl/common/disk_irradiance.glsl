@@ -19,11 +19,12 @@ float disk_irradiance(DiskFrame f, DiskCone cone)
     if (szz > 0.0) {
         result = clipped_ellipse(cone, szz);
     } else {
-        result = f.c3 > 0.0 ? min(cone.form * cone.up * cone.inverse, 1.0) : 0.0;
+        result = f.c3 > 0.0 ? min(cone.volume * abs(cone.rise), 1.0) : 0.0;
     }
 #else
-    float inverse = sqrt(cone.inverse);
-    result = f.c3 > -f.a3 ? horizon_of_sphere(cone.up * inverse, min(cone.form * inverse, 1.0)) : 0.0;
+    float height = sqrt(cone.height2);
+    float form = height > 0.0 ? cone.volume * abs(cone.rise) / height : 0.0;
+    result = f.c3 > -f.a3 ? horizon_of_sphere(cone.rise < 0.0 ? -height : height, min(form, 1.0)) : 0.0;
 #endif
     return f.area > 0.0 ? result : 0.0;
 }

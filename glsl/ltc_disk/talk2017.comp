@@ -23,6 +23,41 @@ summary = "The published pipeline with the form factor clamped to >= 0 (a web en
 tables = { sphere_lut = "image" }
 defines = { CLAMP_FORM_FACTOR = 1 }
 [[variant]]
+name = "talk2017_pass_nan"
+summary = "The published pipeline with an arctangent that hands NaN on, as on devices whose own does"
+tables = { sphere_lut = "image" }
+defines = { PASS_NAN = 1 }
+[[variant]]
+name = "talk2017_over_b"
+summary = "The published pipeline with the cubic solved for e/b"
+tables = { sphere_lut = "image" }
+defines = { OVER_B = 1 }
+[[variant]]
+name = "talk2017_over_b_discriminant"
+summary = "The published pipeline with the cubic solved for e/b and its discriminant clamped to >= 0: the fewest fixes that leave no NaN in facing and far"
+tables = { sphere_lut = "image" }
+defines = { OVER_B = 1, CLAMP_DISCRIMINANT = 1 }
+[[variant]]
+name = "talk2017_shortcut"
+summary = "The published pipeline with the near-diagonal shortcut at 1e-3 (a hobby engine)"
+tables = { sphere_lut = "image" }
+defines = { SHORTCUT = "1e-3" }
+[[variant]]
+name = "talk2017_det"
+summary = "The published pipeline with det Q clamped to >= 0 (a hobby engine)"
+tables = { sphere_lut = "image" }
+defines = { CLAMP_DET = 1 }
+[[variant]]
+name = "talk2017_tangents"
+summary = "The published pipeline with the tangents' radicands clamped to >= 0 (a hobby engine)"
+tables = { sphere_lut = "image" }
+defines = { CLAMP_TANGENTS = 1 }
+[[variant]]
+name = "talk2017_sanitize"
+summary = "The published pipeline with a NaN turned to 0 at the end (a web engine's diffuse path)"
+tables = { sphere_lut = "image" }
+defines = { SANITIZE = 1 }
+[[variant]]
 name = "talk2017_scaled"
 summary = "Shortcut at 7e-4, cubic for e/b, discriminant and form factor >= 0, third axis normalised (a content suite)"
 tables = { sphere_lut = "image" }
