@@ -28,12 +28,13 @@ def share(count, total):
 
 def cell(audit, headline):
     total = audit["configurations"]
-    failed = audit["failed"]["count"]
+    failed = share(audit["failed"]["count"], total)
     broken = audit["verdicts"].get("non_finite", {"count": 0})["count"]
-    if failed:
-        return share(failed, total) + (f"/{share(broken, total)}" if broken else "")
-    worst = max(output["worst"]["error"] or 0.0 for output in audit["outputs"] if output["name"] in headline)
-    return f"{worst:.0e}".replace("e-0", "e-")
+    if broken:
+        return f"{failed} n{share(broken, total)}"
+    errors = [output["worst"]["error"] for output in audit["outputs"] if output["name"] in headline]
+    worst = "inf" if None in errors else f"{max(errors):.0e}".replace("e-0", "e-").replace("e+0", "e")
+    return f"{failed} {worst}"
 
 
 def tables(run):
@@ -55,8 +56,8 @@ def tables(run):
 def block(about, scenarios, rows):
     name = max(map(len, rows)) + 1
     widths = [max(len(head), *(len(cells[i]) for cells in rows.values())) + 2 for i, head in enumerate(scenarios)]
-    lines = [f"// Measured: {about}. Failed/of these not finite;",
-             "// where nothing failed, the worst error, whoever is to blame."]
+    lines = [f"// Measured: {about}.",
+             "// Failed and the worst error, whoever is to blame; n: failed, and so many of them not finite."]
     for title, cells in [("", scenarios), *rows.items()]:
         lines.append("//   " + title.ljust(name) + "".join(c.rjust(w) for c, w in zip(cells, widths)))
     return "\n".join(line.rstrip() for line in lines) + "\n"

