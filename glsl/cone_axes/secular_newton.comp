@@ -12,7 +12,10 @@ name = "secular_newton"
 //
 // Domain: centres off the light's plane, non-zero semi-axes, lengths within 2^-30..2^30 of 1. Source: ours.
 // Bound: as `secular`, for heights and semi-axes whose squares and quotients stay in range.
-// Measured
+// Measured: llvmpipe (Mesa 22.3.6 (LLVM 15.0.6)), 1,000,000 a scenario, seed 1.
+// Failed and the worst error, whoever is to blame; n: failed, and so many of them not finite.
+//                     scene  facing     far  near_plane  needle      edge
+//   secular_newton   0 3e-5  0 4e-7  0 4e-7      0 8e-4  0 5e-5  36% n26%
 
 #include "common/cone_secular.glsl"
 
