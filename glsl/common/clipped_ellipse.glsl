@@ -26,8 +26,8 @@
 
 const float CLIPPED_TURN = 6.28318530718;
 
-// atanh(z/x)/z = log(sum^2/square)/(2 z) for sum = x + z, square = x^2 - z^2 > 0, z >= 0: within 4e-7. The logarithm is split into
-// a power of two 2^n and atanh(r), |r| <= 0.21; for n = 0 it is r = z/x itself.
+// atanh(z/x)/z = log(sum^2/square)/(2 z) for sum = x + z, square = x^2 - z^2 > 0, z >= 0: within 6e-7. The logarithm is split into
+// a power of two 2^n and atanh(r), |r| <= 0.2; for n = 0 it is r = z/x itself.
 float clipped_log_ratio(float x, float z, float square)
 {
     float sum = (x + z) * (x + z);
