@@ -153,6 +153,7 @@ const CLAIMS: &[(&str, Claim)] = &[
     ("stable edges and polygons survive, the published ones do not", edges_and_polygons),
     ("an edge turned round is its negative", turned_edges),
     ("two triangles are their quad, at any scale", split_quads),
+    ("bases survive where they divide by no less than 1", bases),
 ];
 
 /// `as_printed` and `naive` must fail for at least a tenth of `aspect`, or the harness is broken.
@@ -378,6 +379,40 @@ fn split_quads(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
         let scaled = evaluate(rig, &variant, &scaled)?.swap_remove(0);
         let changed = whole.iter().zip(&scaled).filter(|(a, b)| a.to_bits() != b.to_bits()).count();
         expect(changed == 0, || format!("{changed} rows change under 2^{exponent}"))?;
+    }
+    Ok(())
+}
+
+/// Frisvad's form fails at its pole whatever its threshold, forms of the other kind nowhere: 8 steps of 2^-24 are 5e-7,
+/// and a reflection keeps them even for normals that are not unit.
+fn bases(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    let audit = |name: &str, scenario: &str| {
+        let audited =
+            audit_of(rig, &variant(catalog, &format!("orthonormal_basis/{name}"))?, scenario, MAX_CHUNK)?;
+        let summary = &audited.summaries[0];
+        let worst =
+            |output: &audit::OutputSummary| output.worst.found.map_or(f64::INFINITY, |(error, _)| error);
+        Ok::<_, String>((summary.failed(), summary.outputs.iter().map(worst).fold(0.0, f64::max)))
+    };
+    for (name, scenario) in [
+        ("frisvad2012", "near_minus_z"),
+        ("frisvad_999999", "near_minus_z"),
+        ("frisvad_max2017", "near_minus_z"),
+        ("frisvad_unguarded", "near_minus_z"),
+        ("duff2017_sign", "edge"),
+    ] {
+        let (failed, _) = audit(name, scenario)?;
+        expect(failed > CONFIGURATIONS / 10, || format!("{name} failed only {failed} on {scenario}"))?;
+    }
+    for name in ["duff2017", "hughes_moeller1999", "smallest_component", "reflect", "reflect_scaled"] {
+        let reflects = name.starts_with("reflect");
+        for scenario in ["sphere", "near_minus_z", "near_plus_z", "equator", "edge", "not_unit"] {
+            let (failed, worst) = audit(name, scenario)?;
+            let bound = if scenario == "not_unit" && !reflects { 1e-3 } else { 5e-7 };
+            expect(failed == 0 && worst <= bound, || {
+                format!("{name} on {scenario}: {failed} failed, {worst:e}")
+            })?;
+        }
     }
     Ok(())
 }
