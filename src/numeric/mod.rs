@@ -7,6 +7,7 @@ pub mod clipped_sphere;
 pub mod cubic;
 pub mod cylinder_silhouette;
 pub mod double_double;
+pub mod elliptic_arc;
 pub mod exact;
 pub mod exact3;
 pub mod gauss_legendre;
