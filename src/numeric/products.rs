@@ -114,6 +114,37 @@ pub fn transform_sum(m: &DMat3, points: &[DVec3]) -> DVec3 {
     }))
 }
 
+/// The relative error of a component that [`transform_pairs`] leaves.
+pub const PAIR_ERROR: f64 = 1.0 / (1u128 << 80) as f64;
+
+/// The same as pairs: every component off by [`PAIR_ERROR`] of itself, exactly 0 where it is 0.
+pub fn transform_pairs(m: &DMat3, points: &[DVec3]) -> Pairs {
+    [0, 1, 2].map(|row| {
+        let mut terms = [0.0; 16];
+        for (slots, point) in terms.chunks_exact_mut(3).zip(points) {
+            slots.copy_from_slice(&[
+                m.x_axis[row] * point.x,
+                m.y_axis[row] * point.y,
+                m.z_axis[row] * point.z,
+            ]);
+        }
+        let used = 3 * points.len();
+        // The errors' own sum is off by 2^-101 of the terms at most, which cancel seldom.
+        let (mut sum, mut error, mut size) = (0.0, 0.0, 0.0);
+        for &term in &terms[..used] {
+            let (next, lost) = two_sum(sum, term);
+            (sum, error, size) = (next, error + lost, size + term.abs());
+        }
+        let high = sum + error;
+        if high.abs() > size / (1u64 << 20) as f64 {
+            return (high, error - (high - sum));
+        }
+        let high = exact::sum(&terms[..used]);
+        terms[used] = -high;
+        (high, exact::sum(&terms[..=used]))
+    })
+}
+
 /// |v|, whatever its scale: no square leaves the range of f64.
 pub fn norm(v: DVec3) -> f64 {
     let largest = v.abs().max_element();
@@ -160,6 +191,11 @@ mod tests {
         let got = cofactors_times(&cofactors(&matrix), &cross(vector(a), vector(b)));
         assert_eq!(got, vector(expected));
         assert_eq!(transform_sum(&matrix, &[vector(a)]), vector(ma));
+        let pairs = transform_pairs(&matrix, &[vector(a), vector(b)]);
+        let mb = map(b);
+        for (row, (high, low)) in pairs.into_iter().enumerate() {
+            assert_eq!(high as i128 + low as i128, ma[row] + mb[row]);
+        }
     }
 
     #[test]
