@@ -503,9 +503,10 @@ fn bench_ranks_and_says_what_is_noise() {
             assert!(ratio("low") <= ratio("median") && ratio("median") <= ratio("high"), "{timing}");
             let place = |name: &str| timing["rank"][name].as_u64().unwrap();
             assert!(1 <= place("first") && place("first") <= place("last") && place("last") <= 3, "{timing}");
-            // No operation is faster than the fastest kernel there is for it; a half on top for a busy machine.
-            assert!(timing["share"]["arithmetic"].as_f64().unwrap() < 1.5, "{timing}");
-            assert!(timing["share"]["bandwidth"].as_f64().unwrap() < 1.5, "{timing}");
+            // Nothing is faster than the fastest kernel there is for it; but a machine that was busy with other things
+            // while the ceilings were measured, and is not any more, may be several times as fast.
+            assert!(timing["share"]["arithmetic"].as_f64().unwrap() < 8.0, "{timing}");
+            assert!(timing["share"]["bandwidth"].as_f64().unwrap() < 8.0, "{timing}");
         }
         assert!(arithmetic[0]["evaluations"].as_u64().unwrap() >= 16);
     }
