@@ -128,7 +128,13 @@ enum Piece<T> {
     /// A generator of the touching angle's sign between these rims, seen or not.
     Generator { rims: [usize; 2], sign: f64, ends: [Vector<T>; 2] },
     /// The visible part of a rim, or all of it; t counts from `signs[0]` towards, with the sign of `signs[1]`.
-    Arc { rim: usize, signs: [f64; 2], ellipse: Ellipse<T>, cone: Cone<T>, ends: Option<(Vector<T>, Vector<T>, f64)> },
+    Arc {
+        rim: usize,
+        signs: [f64; 2],
+        ellipse: Ellipse<T>,
+        cone: Cone<T>,
+        ends: Option<(Vector<T>, Vector<T>, f64)>,
+    },
 }
 
 /// An end of a visible piece: the point, and which corner of the contour it is unless the horizon cut it.
@@ -358,9 +364,8 @@ impl Derivatives<'_> {
                 self.derive(by_b, rims[1], radial);
             }
             Piece::Arc { rim, signs: [side, turn], ellipse, cone, ends } => {
-                let ends = ends.map(|(start, end, sweep)| {
-                    (DVec3::from_array(start), DVec3::from_array(end), sweep)
-                });
+                let ends =
+                    ends.map(|(start, end, sweep)| (DVec3::from_array(start), DVec3::from_array(end), sweep));
                 ellipse.derivatives(&cone, ends, |[cos, sin], by| {
                     self.derive(by, rim, side * cos * towards + turn * sin * across);
                 });

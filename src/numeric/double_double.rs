@@ -82,8 +82,7 @@ impl DoubleDouble {
     fn exp(x: f64) -> Self {
         // 2^-10 of it by the series, whose first term left out is 2^-105 (0.04)^14/14! and less; then ten squarings.
         let part = DoubleDouble::from(x / 1024.0);
-        let mut value =
-            FACTORIALS.iter().rev().fold(DoubleDouble::from(0.0), |sum, term| sum * part + *term);
+        let mut value = FACTORIALS.iter().rev().fold(DoubleDouble::from(0.0), |sum, term| sum * part + *term);
         for _ in 0..10 {
             value = value * value;
         }

@@ -112,7 +112,8 @@ impl<T: Real> Ellipse<T> {
         let e3 = if degenerate { zero } else { c0 / (l * e1) };
         let e3 = if e3.to_f64() > e1.to_f64() { e1 } else { e3 };
         // Below this, roundings turn u about.
-        let flat = degenerate || e3.to_f64() <= T::ROUNDOFF * e1.to_f64() || l.to_f64() <= T::ROUNDOFF * e1.to_f64();
+        let flat =
+            degenerate || e3.to_f64() <= T::ROUNDOFF * e1.to_f64() || l.to_f64() <= T::ROUNDOFF * e1.to_f64();
         Cone { axes: [w1, w2, w3], e1, e3, l, flat }
     }
 
@@ -121,7 +122,8 @@ impl<T: Real> Ellipse<T> {
         if cone.flat {
             return in_plane(start, end);
         }
-        let Span { low, high, middle: [cos0, sin0], half: [cos_d, sin_d] } = self.span(cone, start, end, sweep);
+        let Span { low, high, middle: [cos0, sin0], half: [cos_d, sin_d] } =
+            self.span(cone, start, end, sweep);
         let &Cone { axes, e1, e3, l, .. } = cone;
         let (one, two) = (T::from(1.0), T::from(2.0));
         let (a, b, c) = (e1.sqrt(), e3.sqrt(), l.sqrt());
