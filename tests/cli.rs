@@ -73,6 +73,8 @@ fn wrong_calls_are_refused_in_one_line() {
         (&["audit", "--device", "7"], "no device matches '7'"),
         (&["audit", "--threads", "0"], "--threads must be from 1"),
         (&["bench", "--seconds", "0"], "--seconds must be above 0"),
+        (&["bench", "ellipse_axes", "--reference", "nave"], "did you mean 'naive'?"),
+        (&["bench", "--regime", "random"], "streaming"),
         (&["list", "elipse"], "unknown family 'elipse'"),
         (&["eval", "ellipse_axes"], "--inputs"),
         (&["eval", "nothing", "--inputs", "x"], "unknown family 'nothing'"),
@@ -412,4 +414,64 @@ fn interruption_leaves_nothing() {
     };
     assert_eq!((status.code(), status.signal()), (Some(130), None));
     assert!(entries(folder.path()).is_empty(), "{:?}", entries(folder.path()));
+}
+
+#[test]
+fn bench_ranks_and_says_what_is_noise() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("run");
+    let mut command = rootq();
+    command.args(["bench", "ellipse_axes/{naive,cross,jacobi}", "--reference", "naive", "--seconds", "0.05"]);
+    let stdout = succeeds(command.args(["--device", "llvmpipe", "--out"]).arg(&out));
+    for expected in ["(null)", "divergent: ratios to naive; against itself", "Ceilings of this run", "places"]
+    {
+        assert!(stdout.contains(expected), "no '{expected}' in {stdout}");
+    }
+    assert!(stdout.contains("times rank only within the same machine and run."), "{stdout}");
+
+    let run = run_json(&out);
+    let positive = |value: &Value| assert!(value.as_f64().unwrap() > 0.0, "{value}");
+    let ceilings = run["ceilings"].as_object().unwrap();
+    assert_eq!(ceilings.len(), 6);
+    ceilings.values().for_each(|ceiling| positive(&ceiling["per_second"]));
+    let family = &run["families"][0];
+    let rankings = family["scenarios"][0]["rankings"].as_array().unwrap();
+    assert_eq!(rankings.len(), 3);
+    for ranking in rankings {
+        assert_eq!(ranking["reference"], "naive");
+        positive(&ranking["null_ns"]["median"]);
+        assert!(ranking["noise"].as_f64().unwrap() >= 0.0);
+        assert!(ranking["rounds"].as_u64().unwrap() >= 11, "{ranking}");
+    }
+    for variant in family["variants"].as_array().unwrap() {
+        positive(&variant["spirv"]["operations"]["flops"]);
+        let result = &variant["results"][0];
+        let arithmetic = result["arithmetic"].as_array().unwrap();
+        assert_eq!(arithmetic.len(), 2);
+        for timing in arithmetic.iter().chain([&result["timing"]]) {
+            positive(&timing["ns"]["median"]);
+            let ratio = |name: &str| timing["ratio"][name].as_f64().unwrap();
+            assert!(ratio("low") <= ratio("median") && ratio("median") <= ratio("high"), "{timing}");
+            let place = |name: &str| timing["rank"][name].as_u64().unwrap();
+            assert!(1 <= place("first") && place("first") <= place("last") && place("last") <= 3, "{timing}");
+            // No operation is faster than the fastest kernel there is for it; a half on top for a busy machine.
+            assert!(timing["share"]["arithmetic"].as_f64().unwrap() < 1.5, "{timing}");
+            assert!(timing["share"]["bandwidth"].as_f64().unwrap() < 1.5, "{timing}");
+        }
+        assert!(arithmetic[0]["evaluations"].as_u64().unwrap() >= 16);
+    }
+}
+
+#[test]
+fn one_regime_and_the_hosts_clock_can_be_asked_for() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("run");
+    let mut command = rootq();
+    command.args(["bench", "horizon_sphere/{stable,rational}", "--regime", "streaming", "--seconds", "0.05"]);
+    let stdout = succeeds(command.args(["--host-clock", "--device", "llvmpipe", "--out"]).arg(&out));
+    assert!(stdout.contains("by the host's clock"), "{stdout}");
+    let run = run_json(&out);
+    let result = &run["families"][0]["variants"][0]["results"][0];
+    assert_eq!(result["timing"]["clock"], "host_fence");
+    assert!(result.get("arithmetic").is_none(), "{result}");
 }

@@ -137,6 +137,14 @@ fn check(problem: &dyn Problem) -> usize {
                     let own = problem.residual(position, &inputs, truth.values());
                     assert!(own <= ROUNDINGS, "{place}: the oracle's {name} is off by {own:e}");
                 }
+                // Of all components together: the limit is one of lengths.
+                Quantity::Builtin => {
+                    let size = expected.iter().map(|c| c * c).sum::<f64>().sqrt();
+                    for (got, expected) in got.iter().zip(&expected) {
+                        let error = (got - expected).abs();
+                        assert!(error <= SCALAR * size, "{place}: {name} {got} for {expected}");
+                    }
+                }
                 Quantity::VectorIrradiance => {
                     let (got, expected) = (glam::DVec3::from_slice(got), glam::DVec3::from_slice(&expected));
                     let error = (got - expected).length();

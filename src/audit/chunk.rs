@@ -1,7 +1,9 @@
 //! One chunk of a scenario: inputs and truth, a pure function of (family, scenario, seed, index range).
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
+use super::exact_bits;
 use super::fingerprint::row_hash;
 use super::summary::Row;
 use crate::family::{CERTIFIED, Problem, Scenario, Truth};
@@ -30,7 +32,7 @@ pub struct Chunk {
 }
 
 /// The oracle's certainty over many configurations; merges like everything else.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OracleSummary {
     pub configurations: u64,
     /// Plain f64 did not do.
@@ -38,6 +40,7 @@ pub struct OracleSummary {
     /// Not certified even so: the bound is above 1/16 of the f32 spacing.
     pub uncertified: u64,
     /// Largest error bound in units of the f32 spacing.
+    #[serde(with = "exact_bits")]
     pub worst_bound: f64,
 }
 
@@ -52,6 +55,17 @@ struct Widths {
 impl Chunk {
     /// Draws the configurations `first .. first + rows` of a scenario and computes their truth.
     pub fn draw(problem: &dyn Problem, scenario: &Scenario, seed: u64, first: u64, rows: usize) -> Self {
+        Chunk::of_inputs(problem, first, Chunk::draw_inputs(problem, scenario, seed, first, rows))
+    }
+
+    /// Only the inputs of [`draw`](Self::draw), row-major.
+    pub fn draw_inputs(
+        problem: &dyn Problem,
+        scenario: &Scenario,
+        seed: u64,
+        first: u64,
+        rows: usize,
+    ) -> Vec<f32> {
         let stream = Stream::new(seed, &format!("{}/{}", problem.name(), scenario.name));
         let width: usize = problem.inputs().iter().map(|field| field.ty.components()).sum();
         let mut inputs = vec![0.0; rows * width];
@@ -61,10 +75,16 @@ impl Chunk {
                 (scenario.draw)(draw, &mut inputs[row * width..][..width]);
             });
         });
+        inputs
+    }
+
+    /// The truth of consecutive bit patterns of a family's one input column.
+    pub fn of_bits(problem: &dyn Problem, first: u64, rows: usize) -> Self {
+        let inputs = (first..first + rows as u64).map(|bits| f32::from_bits(bits as u32)).collect();
         Chunk::of_inputs(problem, first, inputs)
     }
 
-    /// The truth of given inputs, row-major and finite.
+    /// The truth of given inputs, row-major and what the oracle takes.
     pub fn of_inputs(problem: &dyn Problem, first: u64, inputs: Vec<f32>) -> Self {
         let signature = problem.signature();
         let widths = Widths {

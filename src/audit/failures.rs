@@ -2,20 +2,27 @@
 
 use std::collections::BinaryHeap;
 
-use super::Verdict;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
 use super::fingerprint::mix;
+use super::{Verdict, exact_bits};
 
 /// One failing configuration as it was seen.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
     pub index: u64,
     pub verdict: Verdict,
+    #[serde(with = "exact_bits")]
     pub inputs: Vec<f32>,
+    #[serde(with = "exact_bits")]
     pub outputs: Vec<f32>,
+    #[serde(with = "exact_bits")]
     pub truth: Vec<f64>,
     /// One an output, in the quantity's own measure.
+    #[serde(with = "exact_bits")]
     pub errors: Vec<f64>,
     /// One an output.
+    #[serde(with = "exact_bits")]
     pub ulps: Vec<f64>,
 }
 
@@ -54,6 +61,24 @@ impl Failures {
         let mut failures: Vec<&Failure> = self.kept.iter().map(|ranked| &ranked.failure).collect();
         failures.sort_by_key(|failure| failure.index);
         failures
+    }
+}
+
+/// The limit and the failures by index.
+impl Serialize for Failures {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        (self.limit, self.sorted()).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Failures {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let (limit, kept) = <(usize, Vec<Failure>)>::deserialize(deserializer)?;
+        let mut failures = Failures::new(limit);
+        for failure in kept {
+            failures.offer(failure.index, || failure);
+        }
+        Ok(failures)
     }
 }
 

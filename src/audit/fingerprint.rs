@@ -6,6 +6,8 @@
 //! of Eppstein, Goodrich, Uyeda and Varghese, SIGCOMM 2011, with linear counting in place of invertible cells). Sums
 //! merge by addition, so neither threads nor chunks show.
 
+use serde::{Deserialize, Serialize};
+
 /// One level holds every configuration whose hash ends in so many zero bits more than the level's below.
 const LEVEL_BITS: u32 = 3;
 const LEVELS: usize = 8;
@@ -13,7 +15,8 @@ const LEVELS: usize = 8;
 const CELLS: usize = 64;
 
 /// What was left of a set of rows.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(into = "Vec<u8>", try_from = "Vec<u8>")]
 pub struct Fingerprint {
     total: u64,
     cells: Box<[u16; LEVELS * CELLS]>,
@@ -87,6 +90,20 @@ impl Fingerprint {
             *cell = u16::from_le_bytes(*pair);
         }
         Some(fingerprint)
+    }
+}
+
+impl From<Fingerprint> for Vec<u8> {
+    fn from(fingerprint: Fingerprint) -> Self {
+        fingerprint.bytes()
+    }
+}
+
+impl TryFrom<Vec<u8>> for Fingerprint {
+    type Error = String;
+
+    fn try_from(bytes: Vec<u8>) -> Result<Self, String> {
+        Fingerprint::from_bytes(&bytes).ok_or_else(|| format!("{} bytes are no fingerprint", bytes.len()))
     }
 }
 

@@ -52,7 +52,8 @@ impl Measure {
 
 /// Judges one output: its components `values` against the exact `truth`.
 ///
-/// `sensitivity` is the oracle's: the change of the truth for a relative change of every input by one.
+/// `sensitivity` is the oracle's: the change of the truth for a relative change of every input by one; for a builtin
+/// the permitted error.
 ///
 /// # Panics
 /// Given a property, which is judged by its [`residual`] and not by its distance from one truth.
@@ -72,6 +73,7 @@ pub fn measure(output: &Output, values: &[f32], truth: &[f64], sensitivity: f64)
         Quantity::UnitVector { sign_free } => {
             unit_vector(output, sign_free, vector(values), DVec3::from_slice(truth), sensitivity)
         }
+        Quantity::Builtin => builtin(values, truth, sensitivity),
         Quantity::Property => panic!("{} has no one truth to be compared with", output.field.name),
     }
 }
@@ -178,9 +180,43 @@ fn sized_vector(output: &Output, sign_free: bool, value: DVec3, truth: DVec3, se
     measure
 }
 
+/// What rounds to infinity: the largest f32 and half its spacing.
+const OVERFLOW: f64 = f32::MAX as f64 * (1.0 + UNIT_ROUNDOFF / 2.0);
+/// The verdict follows the specification of Vulkan: within the limit; a result whose permitted range reaches into the
+/// subnormals may be flushed to zero, and one whose range reaches beyond the largest f32 may be infinite or that largest
+/// one. Neither counts as an error. Without a limit any answer will do, and the error is the absolute or the relative
+/// one, whichever is less.
+fn builtin(values: &[f32], truth: &[f64], limit: f64) -> Measure {
+    let off = |(value, truth): (&f32, &f64)| {
+        let may_flush = *value == 0.0 && truth.abs() < FLUSH + limit;
+        let may_overflow = value.abs() >= f32::MAX
+            && truth.abs() + limit > f64::from(f32::MAX)
+            && (*value > 0.0) == (*truth > 0.0);
+        if limit.is_finite() && (may_flush || may_overflow) { 0.0 } else { (f64::from(*value) - truth).abs() }
+    };
+    let (absolute, size) = match (values, truth) {
+        // Squares of subnormals would vanish.
+        ([value], [truth]) => (off((value, truth)), truth.abs()),
+        _ => {
+            let square: f64 = values.iter().zip(truth).map(|pair| off(pair).powi(2)).sum();
+            (square.sqrt(), truth.iter().map(|truth| truth * truth).sum::<f64>().sqrt())
+        }
+    };
+    let steps = [255.0 * absolute, 1023.0 * absolute, absolute / f16_spacing(size)];
+    let ulp = absolute / f32_spacing(size);
+    if !limit.is_finite() {
+        let error = absolute.min(absolute / size);
+        return Measure { verdict: Verdict::Unspecified, error, ulp, conditioned: 0.0, steps };
+    }
+    if !absolute.is_finite() {
+        return Measure::failed(Verdict::NonFinite);
+    }
+    let error = if absolute == 0.0 { 0.0 } else { absolute / limit };
+    let verdict = if error <= 1.0 { Verdict::Ok } else { Verdict::Inaccurate };
+    Measure { verdict, error, ulp, conditioned: 0.0, steps }
+}
+
 fn relative(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Measure {
-    /// What rounds to infinity: the largest f32 and half its spacing.
-    const OVERFLOW: f64 = f32::MAX as f64 * (1.0 + UNIT_ROUNDOFF / 2.0);
     if !value.is_finite() {
         let overflows = value.is_infinite() && truth.abs() >= OVERFLOW && (value > 0.0) == (truth > 0.0);
         return if overflows {
@@ -401,6 +437,35 @@ mod tests {
         assert_eq!(verdict(1.0, -1.0, 1.0), Verdict::WrongSign);
         assert_eq!(verdict(1e-9, -1e-9, 1.0), Verdict::IllConditioned);
         assert_eq!(verdict(f32::NEG_INFINITY, -4e38, 1.0), Verdict::Ok);
+    }
+
+    #[test]
+    fn builtins_are_judged_by_their_limit() {
+        let output = Output::new("y", Type::Float, Quantity::Builtin, 1.0);
+        let verdict = |value: f32, truth, limit| measure(&output, &[value], &[truth], limit).verdict;
+        assert_eq!(verdict(1.25, 1.0, 0.25), Verdict::Ok);
+        assert_eq!(verdict(1.25f32.next_up(), 1.0, 0.25), Verdict::Inaccurate);
+        assert_eq!(measure(&output, &[1.25], &[1.0], 0.5).error, 0.5);
+        assert_eq!(verdict(f32::NAN, 1.0, 0.25), Verdict::NonFinite);
+        assert_eq!(verdict(f32::NAN, 1.0, f64::INFINITY), Verdict::Unspecified);
+        assert_eq!(verdict(1.0, f64::NAN, f64::INFINITY), Verdict::Unspecified);
+        // Flushed, and one that must not be.
+        assert_eq!(verdict(0.0, 1.1e-38, 1e-45), Verdict::Ok);
+        assert_eq!(verdict(0.0, 1.2e-38, 1e-45), Verdict::Inaccurate);
+        // Overflown, to infinity or to the largest; not where the range ends before, nor to the other sign.
+        for value in [f32::INFINITY, f32::MAX] {
+            assert_eq!(verdict(value, 1e39, 1e32), Verdict::Ok);
+            assert_ne!(verdict(-value, 1e39, 1e32), Verdict::Ok);
+        }
+        assert_eq!(verdict(f32::INFINITY, 3.4e38, 1e37), Verdict::Ok);
+        assert_eq!(verdict(f32::INFINITY, 3e38, 1e37), Verdict::NonFinite);
+    }
+
+    #[test]
+    fn vectors_of_builtins_are_judged_by_distance() {
+        let output = Output::new("v", Type::Vec3, Quantity::Builtin, 1.0);
+        let measure = measure(&output, &[0.3, 0.0, 1.4], &[0.0, 0.0, 1.0], 1.0);
+        assert!((measure.error - 0.5).abs() < 1e-7 && measure.verdict == Verdict::Ok, "{measure:?}");
     }
 
     #[test]

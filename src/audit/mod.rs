@@ -2,6 +2,8 @@
 
 mod chunk;
 mod engine;
+mod exact_bits;
+mod extremes;
 mod failures;
 mod fingerprint;
 mod histogram;
@@ -10,7 +12,8 @@ mod summary;
 mod verdict;
 
 pub use chunk::{Chunk, MAX_CHUNK, OracleSummary};
-pub use engine::{Audited, Plan, Stopped, audit, judge};
+pub use engine::{Audited, Plan, Stopped, Sweep, audit, judge, sweep};
+pub use extremes::{Extremes, Specimen};
 pub use failures::{Failure, Failures};
 pub use fingerprint::Fingerprint;
 pub use histogram::Histogram;

@@ -1,13 +1,17 @@
 //! What an audit keeps of millions of comparisons. Everything in it merges by integer addition or by a maximum with a
 //! fixed rule for ties, so that neither threads nor chunks nor their order show.
 
+use serde::{Deserialize, Serialize};
+
+use super::exact_bits;
+use super::extremes::Extremes;
 use super::failures::{Failure, Failures};
 use super::judge::Measure;
 use super::{Fingerprint, Histogram, Verdict, judge};
 use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem, Quantity};
 
 /// One variant on one scenario.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Summary {
     pub configurations: u64,
     /// By position in [`Verdict::ALL`].
@@ -21,7 +25,7 @@ pub struct Summary {
 }
 
 /// One output of one variant on one scenario.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct OutputSummary {
     /// Configurations whose error is beyond the output's tolerance, not finite, or not to be had because only one of truth
     /// and variant is a miss; whoever is to blame.
@@ -33,17 +37,21 @@ pub struct OutputSummary {
     pub ulp: Histogram,
     pub conditioned: Histogram,
     pub worst: Worst,
+    /// Only of builtins.
+    pub extremes: Extremes,
 }
 
 /// The worst finite error and its configuration; the smallest index among equals.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Worst {
+    #[serde(with = "exact_bits")]
     pub found: Option<(f64, u64)>,
+    #[serde(with = "exact_bits")]
     pub ulp: f64,
 }
 
 /// What happened in one bin of a landmark coordinate.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Bin {
     pub verdicts: [u64; Verdict::ALL.len()],
     /// One an output, as [`OutputSummary::beyond`].
@@ -132,11 +140,18 @@ impl Summary {
                     _ => judge::measure(
                         output,
                         &values[components.clone()],
-                        &row.truth[components],
+                        &row.truth[components.clone()],
                         sensitivity,
                     ),
                 };
                 verdict = verdict.max(measure.verdict);
+                if output.quantity == Quantity::Builtin {
+                    let (value, truth) = (&values[components.clone()], &row.truth[components]);
+                    self.outputs[position].extremes.add(&measure, row, value, truth, sensitivity);
+                    if measure.verdict == Verdict::Unspecified {
+                        continue;
+                    }
+                }
                 record(position, &measure);
                 self.outputs[position].add(&measure, output.tolerance, row.index);
             }
@@ -228,6 +243,7 @@ impl OutputSummary {
         self.error.merge(&other.error);
         self.ulp.merge(&other.ulp);
         self.conditioned.merge(&other.conditioned);
+        self.extremes.merge(&other.extremes);
         if let Some((error, index)) = other.worst.found {
             self.worst.offer(error, other.worst.ulp, index);
         }

@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 pub enum Verdict {
     /// Every output within its tolerance.
     Ok,
+    /// The specification of the device promises nothing for these inputs: any answer will do.
+    Unspecified,
     /// Beyond the tolerance, but no further than rounding the inputs would explain: the problem's fault.
     IllConditioned,
     /// Beyond the tolerance: the variant's fault.
@@ -30,8 +32,9 @@ pub enum Verdict {
 
 impl Verdict {
     /// Every verdict, ascending.
-    pub const ALL: [Verdict; 10] = [
+    pub const ALL: [Verdict; 11] = [
         Verdict::Ok,
+        Verdict::Unspecified,
         Verdict::IllConditioned,
         Verdict::Inaccurate,
         Verdict::NotOrthogonal,
@@ -47,6 +50,7 @@ impl Verdict {
     pub fn name(self) -> &'static str {
         match self {
             Verdict::Ok => "ok",
+            Verdict::Unspecified => "unspecified",
             Verdict::IllConditioned => "ill_conditioned",
             Verdict::Inaccurate => "inaccurate",
             Verdict::NotOrthogonal => "not_orthogonal",

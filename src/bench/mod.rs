@@ -1,11 +1,20 @@
 //! Throughput: how long a device takes for a configuration, by its own clock.
 
+mod bootstrap;
+mod ceilings;
+mod contest;
+#[cfg(test)]
+mod noise;
+mod ranking;
+mod rounds;
 mod statistics;
-mod streaming;
 mod timing;
 
+pub use ceilings::ceilings;
+pub use contest::{CONFIGURATIONS, Contest, Entrant};
+pub use ranking::{Standing, standing};
+pub use rounds::{Effort, Rounds, Sampler, rounds};
 pub use statistics::{Quartiles, rate_interval};
-pub use streaming::{CONFIGURATIONS, Effort, streaming};
 pub use timing::{
     Bound, Ceiling, Ceilings, Coherence, Rank, Ranking, Ratio, Regime, Setting, Share, Stop, Timing,
 };

@@ -8,12 +8,14 @@ mod count;
 mod devices;
 mod draft;
 mod eval;
+mod exhaustive;
 mod fit;
 mod list;
 mod machine;
 mod pick;
 mod run;
 mod selection;
+mod timing;
 
 use std::io::IsTerminal;
 use std::process::ExitCode;
@@ -61,13 +63,18 @@ enum Verb {
     /// Only the precision half of 'run'
     ///
     /// Runs variants over random configurations of each scenario and compares every result with the oracle. See 'rootq
-    /// run --help' for what it leaves.
+    /// run --help' for what it leaves. With --exhaustive, families of one input are audited on all 2^32 bit patterns of
+    /// it, in minutes; interrupted, the same command with the same --out goes on.
     Audit(run::Arguments),
     /// Only the throughput half of 'run'
     ///
-    /// Takes the time of variants by the device's own timestamps, one evaluation a configuration, inputs from memory
-    /// and outputs to it. Variants are interleaved; the table has the median and the quartiles of nanoseconds a
-    /// configuration.
+    /// Takes the time of variants by the device's own timestamps in two regimes. Streaming: one evaluation a
+    /// configuration, inputs from memory and outputs to it. Arithmetic: many evaluations in registers, each with inputs
+    /// perturbed by the last results, once with the same configuration throughout a workgroup (coherent) and once with
+    /// independent ones (divergent). Variants take turns, in changing order, until their ratios to a reference are known to
+    /// half a per cent or time is up. Each ranking holds its reference twice: what differs between the two is noise,
+    /// inside which no variant ranks before another. The table shows shares of what the device did at best in the same
+    /// run. Only a family's first scenario is timed, unless --scenario names others.
     Bench(run::Arguments),
     /// Evaluate your own configurations, by oracle and variants, CSV to CSV
     ///
@@ -126,8 +133,11 @@ pub fn main() -> ExitCode {
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
         Ok(Outcome::Violated) => VIOLATED.into(),
-        Err(_) if stop.load(Ordering::Relaxed) => {
-            eprintln!("rootq: interrupted; nothing was recorded");
+        Err(error) if stop.load(Ordering::Relaxed) => {
+            match error.downcast_ref::<exhaustive::Kept>() {
+                Some(kept) => eprintln!("rootq: interrupted; {kept}"),
+                None => eprintln!("rootq: interrupted; nothing was recorded"),
+            }
             INTERRUPTED.into()
         }
         // A closed pipe is how the reader says that it has seen enough.

@@ -200,6 +200,7 @@ mod tests {
                 ulp: none.clone(),
                 conditioned: none,
                 worst: None,
+                extremes: None,
             }],
             landmarks: vec![],
         }

@@ -31,7 +31,7 @@ pub trait Problem: Sync {
 
     /// The exact result for these f32 bits, with certainty and conditioning, at most 2 us.
     ///
-    /// `input` has one value a column, all finite.
+    /// `input` has one value a column, all finite unless [`takes_all_bits`](Problem::takes_all_bits).
     fn oracle(&self, input: &[f32], truth: &mut Truth);
 
     /// How far results are from the property that output `output` must have, a [`Quantity::Property`]; 0 where it holds
@@ -44,6 +44,12 @@ pub trait Problem: Sync {
     /// family states for it. Hits and misses are two classes. Where truth and variant both miss there is nothing to
     /// measure; where one does, either the oracle's [`Truth::margin`] explains it or the variant has `missed`.
     fn is_miss(&self, _values: &[f64]) -> bool {
+        false
+    }
+
+    /// Whether the family has one input column and its oracle answers for every bit pattern of it, so that an audit can
+    /// be exhaustive.
+    fn takes_all_bits(&self) -> bool {
         false
     }
 
@@ -110,6 +116,9 @@ pub enum Quantity {
     /// largest residual of what must hold, by [`Problem::residual`]. The oracle's values are one right answer of many, and
     /// its sensitivity is the residual that a change of the inputs alone makes of them.
     Property,
+    /// What one of the device's own instructions returns: the error, of a vector its length, over what the Vulkan
+    /// specification permits for these very inputs. The tolerance is 1.
+    Builtin,
 }
 
 /// What must hold of several results together.
@@ -240,6 +249,17 @@ impl Truth {
         self.margin
     }
 
+    /// Sets what a builtin returns, one value a component. `bound` is the absolute error bound of each; `limit` what the
+    /// Vulkan specification permits as the length of the error, infinite where it promises nothing: the value may then
+    /// be NaN. The limit takes the place of a sensitivity.
+    pub fn builtin(&mut self, output: usize, value: &[f64], bound: f64, limit: f64) {
+        let offset = self.offset(output);
+        self.values[offset..offset + value.len()].copy_from_slice(value);
+        self.sensitivities[output] = limit;
+        let largest = value.iter().fold(0.0, |largest: f64, component| largest.max(component.abs()));
+        self.worst_bound = self.worst_bound.max(bound / f32_spacing(largest));
+    }
+
     /// Notes that plain f64 did not do.
     pub fn escalate(&mut self) {
         self.escalated = true;
@@ -265,7 +285,7 @@ impl Truth {
         &self.values[self.offset(output)..][..self.components[output]]
     }
 
-    /// Sensitivities, one an output.
+    /// Sensitivities, one an output; of a [`Quantity::Builtin`] the permitted error.
     pub fn sensitivities(&self) -> &[f64] {
         &self.sensitivities[..self.outputs]
     }

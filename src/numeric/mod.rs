@@ -18,3 +18,4 @@ pub mod products;
 pub mod spacing;
 pub mod symmetric3;
 pub mod twofold;
+pub mod vulkan_limits;

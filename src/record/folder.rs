@@ -18,6 +18,8 @@ pub struct Folder {
     target: PathBuf,
     draft: TempDir,
     replace: bool,
+    /// A file in the target that ends with the run.
+    journal: Option<&'static str>,
 }
 
 impl Folder {
@@ -33,6 +35,20 @@ impl Folder {
         } else if target.exists() {
             return Err(io("use as a folder", std::io::ErrorKind::NotADirectory.into()));
         }
+        Self::beside(target, replace, None)
+    }
+
+    /// As [`create`](Self::create), for a run that keeps the file `journal` in its target until it is finished: a folder
+    /// that holds one is a run to go on with.
+    pub fn resume(target: &Path, replace: bool, journal: &'static str) -> Result<Folder, Error> {
+        if target.join(journal).is_file() {
+            return Self::beside(target, replace, Some(journal));
+        }
+        Ok(Folder { journal: Some(journal), ..Self::create(target, replace)? })
+    }
+
+    fn beside(target: &Path, replace: bool, journal: Option<&'static str>) -> Result<Folder, Error> {
+        let io = |action, source| Error::Io { action, path: target.to_owned(), source };
         let parent = match target.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
@@ -42,7 +58,7 @@ impl Folder {
             .prefix(".rootq-")
             .tempdir_in(parent)
             .map_err(|source| io("write to", source))?;
-        Ok(Folder { target: target.to_owned(), draft, replace })
+        Ok(Folder { target: target.to_owned(), draft, replace, journal })
     }
 
     /// Writes the record and moves the folder into place; returns where that is.
@@ -59,6 +75,9 @@ impl Folder {
         failures::write(&self.draft.path().join(FAILURES), evidence)?;
         bits::write(&self.draft.path().join(BITS), evidence)?;
 
+        if let Some(journal) = self.journal.map(|name| self.target.join(name)).filter(|path| path.is_file()) {
+            fs::remove_file(&journal).map_err(io("remove", &journal))?;
+        }
         if self.replace && self.target.join(RUN).is_file() {
             fs::remove_dir_all(&self.target).map_err(io("replace", &self.target))?;
         } else if self.target.is_dir() {

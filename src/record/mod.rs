@@ -17,8 +17,8 @@ pub use bits::Bits;
 pub use folder::{Folder, Recorded, default_path, read};
 pub use number::parse_f32;
 pub use schema::{
-    Audit, Bin, Buckets, Distribution, Family, Host, Landmark, Oracle, Output, OutputAudit, Program, Rate,
-    Result, Run, SCHEMA, Scenario, Settings, Variant, Visible, Worst,
+    Audit, Bin, Buckets, Distribution, Extremes, Family, Host, Landmark, Oracle, Output, OutputAudit,
+    Program, Rate, Result, Run, SCHEMA, Scenario, Settings, Specimen, Variant, Visible, Worst,
 };
 pub use summarize::{audit, family};
 

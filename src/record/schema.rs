@@ -79,7 +79,7 @@ pub struct Output {
     pub name: String,
     /// How its error is measured: `magnitude`, `scalar`, `solid_angle` and `vector` (relative), `unit_vector` (radians),
     /// `irradiance` and `vector_irradiance` (absolute, the full hemisphere being 1), `coordinate` (absolute), `property`
-    /// (the largest residual of what must hold).
+    /// (the largest residual of what must hold), `builtin` (a share of the permitted error).
     pub quantity: String,
     pub tolerance: f64,
     pub headline: bool,
@@ -207,6 +207,34 @@ pub struct OutputAudit {
     pub conditioned: Distribution,
     /// The worst finite error.
     pub worst: Option<Worst>,
+    /// Of a builtin: the worst configurations themselves.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub extremes: Option<Extremes>,
+}
+
+/// The worst finite errors of a builtin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Extremes {
+    /// In units in the last place, where the specification promises anything.
+    pub ulp: Option<Specimen>,
+    /// As a share of the permitted error.
+    pub share: Option<Specimen>,
+    /// Absolute or relative, whichever is less, where the specification promises nothing.
+    pub unspecified: Option<Specimen>,
+}
+
+/// One configuration and what came of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Specimen {
+    /// The error, as the field says that holds it.
+    pub size: f64,
+    pub index: u64,
+    /// In the order of input columns.
+    pub inputs: Vec<f32>,
+    pub output: Vec<Option<f32>>,
+    pub truth: Vec<f64>,
+    /// The permitted error; `null` where nothing is promised.
+    pub limit: Option<f64>,
 }
 
 /// Configurations whose error is at least one step of a display or frame buffer.

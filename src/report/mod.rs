@@ -1,9 +1,11 @@
 //! Tables for the terminal, made from a record alone: what is shown can be shown again from `run.json`.
 
+mod builtin;
 mod compare;
 mod numbers;
 mod pick;
 mod table;
+mod timing;
 
 pub use compare::{Form, compare, github};
 pub use pick::pick;
