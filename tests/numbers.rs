@@ -96,9 +96,14 @@ fn the_orthographic_quarter_disk() {
         // Rounding of the primitive, 1e-16 a pixel.
         assert!((sums.clipped - FRAC_PI_2).abs() < 1e-10, "{size}: {sums:?}");
         assert!(sums.published <= sums.inside + 1e-10 && sums.inside < FRAC_PI_2, "{size}: {sums:?}");
+        let [out, on] = [false, true].map(|on_circle| orthographic_disk::whole_pixels(size, on_circle));
+        assert!((out - 1e-10..=on + 1e-10).contains(&sums.published), "{size}: {out} {on} {sums:?}");
         let found = FRAC_PI_2 - sums.inside;
         assert!((found / lost - 1.0).abs() < 0.1, "{size}: {found} lost, {sums:?}");
     }
+    let [out, on] = [false, true].map(|on_circle| orthographic_disk::whole_pixels(10_000, on_circle));
+    assert!(out < orthographic_disk::PRINTED && orthographic_disk::PRINTED < on, "{out} {on}");
+    assert!((on - 1.553_605).abs() < 1e-6, "{on}");
 }
 
 #[test]

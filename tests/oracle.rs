@@ -117,7 +117,11 @@ fn check(problem: &dyn Problem) -> usize {
             };
             compared += 1;
             match output.quantity {
-                Quantity::Magnitude | Quantity::Scalar | Quantity::Irradiance | Quantity::SolidAngle => {
+                Quantity::Magnitude
+                | Quantity::Scalar
+                | Quantity::Irradiance
+                | Quantity::Coordinate
+                | Quantity::SolidAngle => {
                     let error = (got[0] - expected[0]).abs();
                     let allowed = scalar_tolerance(family, name, row) * expected[0].abs();
                     assert!(error <= allowed, "{place}: {name} {} for {}", got[0], expected[0]);

@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     #[arg(long)]
     all: bool,
     /// Percent by which the times of two runs of the same thing may differ [default: 10, on a software device 25]
-    #[arg(long, value_name = "PERCENT")]
+    #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
     time_tolerance: Option<f64>,
 }
 

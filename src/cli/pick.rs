@@ -27,13 +27,13 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     devices: Vec<String>,
     /// Largest error of any output, in its own measure, at --quantile
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     max_error: Option<f64>,
     /// Which part of the errors --max-error means
     #[arg(long, value_enum, default_value_t = QuantileName::Worst)]
     quantile: QuantileName,
     /// Largest share of configurations that are wrong by the variant's own fault, in any scenario
-    #[arg(long, value_name = "SHARE")]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     max_failed: Option<f64>,
     /// Nothing that is NaN or infinite
     #[arg(long)]

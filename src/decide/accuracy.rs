@@ -5,7 +5,7 @@ use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, Normal};
 
 use super::Change;
 use crate::audit::{Fingerprint, Verdict};
-use crate::record::{Audit, Distribution, Rate};
+use crate::record::{Audit, Buckets, Distribution, Rate};
 
 /// The change and what it rests on.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -69,7 +69,7 @@ pub(super) fn accuracy(
             return result(change, format!("{what}: {:.3e} -> {:.3e} of all", from.rate, to.rate));
         }
     }
-    let moves = quantile_moves(a, b);
+    let moves = quantile_moves(a, b, level);
     let worst = |change: Change| moves.iter().find(|(moved, _)| *moved == change);
     match (worst(Change::Worse), worst(Change::Better)) {
         (Some((_, worse)), Some((_, better))) => {
@@ -95,8 +95,9 @@ pub(super) fn verdict(audit: &Audit, verdict: Verdict) -> Rate {
     })
 }
 
-/// Each quantile of each output's error that moved by [`QUANTILE_FACTOR`] or more.
-fn quantile_moves(a: &Audit, b: &Audit) -> Vec<(Change, String)> {
+/// Each quantile of each output's error that moved by [`QUANTILE_FACTOR`] or more, where the shares of errors beyond the
+/// smaller of the two also differ at this level: between two modes of a distribution a quantile moves far for nothing.
+fn quantile_moves(a: &Audit, b: &Audit, level: f64) -> Vec<(Change, String)> {
     let beyond = |share: f64| share * a.configurations.min(b.configurations) as f64 >= BEYOND_QUANTILE;
     let mut moves = Vec::new();
     for output in &a.outputs {
@@ -117,10 +118,32 @@ fn quantile_moves(a: &Audit, b: &Audit) -> Vec<(Change, String)> {
             } else {
                 continue;
             };
+            let counts = [output, other].map(|output| beyond_value(&output.error, from.min(to)));
+            if !differ(counts, [a.configurations, b.configurations], level) {
+                continue;
+            }
             moves.push((change, format!("{name} of {}: {from:.2e} -> {to:.2e}", output.name)));
         }
     }
     moves
+}
+
+/// Errors beyond `value`, the upper edge of one of the histogram's buckets.
+fn beyond_value(distribution: &Distribution, value: f64) -> u64 {
+    let Buckets { first, counts } = &distribution.buckets;
+    let beyond = counts.iter().enumerate().filter(|(at, _)| bucket_start(first + at) >= value);
+    beyond.map(|(_, count)| count).sum()
+}
+
+/// Where a bucket of the record's histograms begins.
+fn bucket_start(bucket: usize) -> f64 {
+    match bucket {
+        0 => 0.0,
+        _ => {
+            let (octave, quarter) = ((bucket - 1) / 4, (bucket - 1) % 4);
+            libm::ldexp(1.0 + quarter as f64 / 4.0, octave as i32 - 64)
+        }
+    }
 }
 
 /// Whether two rates differ at this level, by the exact conditional test: given their sum, the first count is binomial.
@@ -168,7 +191,7 @@ fn agree([a, b]: [Rate; 2], totals: [u64; 2]) -> bool {
 mod tests {
     use super::*;
     use crate::bench::rate_interval;
-    use crate::record::{Buckets, OutputAudit, Visible};
+    use crate::record::{OutputAudit, Visible};
 
     fn rate(count: u64, total: u64) -> Rate {
         let (low, high) = rate_interval(count, total);
@@ -177,12 +200,18 @@ mod tests {
 
     fn audit(failed: u64, non_finite: u64, p99: f64) -> Audit {
         const N: u64 = 1_000_000;
+        // All errors in three buckets: 2 per cent just below p99 or 1, one in 500 just below 1.
+        let mut counts = vec![0; 258];
+        let bucket = |value: f64| (1..258).rfind(|bucket| bucket_start(*bucket) < value).unwrap_or(0);
+        counts[0] = N - N / 50 - N / 500;
+        counts[bucket(p99)] += N / 50;
+        counts[bucket(1.0)] += N / 500;
         let none = Distribution {
             p50: Some(0.0),
             p90: Some(0.0),
             p99: Some(p99),
             p999: Some(1.0),
-            buckets: Buckets { first: 0, counts: vec![] },
+            buckets: Buckets { first: 0, counts },
         };
         let mut verdicts = std::collections::BTreeMap::new();
         if non_finite > 0 {
@@ -243,8 +272,25 @@ mod tests {
         assert_eq!(change(&audit(0, 0, 1e-7), &audit(0, 0, 1.25e-7)), Change::Same);
         assert_eq!(change(&audit(0, 0, 1e-7), &audit(0, 0, 2e-7)), Change::Worse);
         let mut mixed = audit(0, 0, 2e-7);
-        mixed.outputs[0].error.p999 = Some(0.1);
+        let error = &mut mixed.outputs[0].error;
+        error.p999 = Some(0.1);
+        error.buckets.counts.truncate(200);
         assert_eq!(change(&audit(0, 0, 1e-7), &mixed), Change::CannotTell);
+    }
+
+    /// Two modes, half of the errors in each: the median is in one or the other by chance.
+    #[test]
+    fn a_median_between_two_modes_tells_nothing() {
+        let with = |p50: f64, low: u64| {
+            let mut audit = audit(0, 0, 1.0);
+            let error = &mut audit.outputs[0].error;
+            error.p50 = Some(p50);
+            error.buckets = Buckets { first: 100, counts: vec![low, 0, 0, 0, 0, 0, 0, 1_000_000 - low] };
+            audit
+        };
+        let (low, high) = (bucket_start(101), bucket_start(108));
+        assert_eq!(change(&with(low, 500_100), &with(high, 499_900)), Change::Same);
+        assert_eq!(change(&with(low, 510_000), &with(high, 490_000)), Change::Worse);
     }
 
     /// Binomial tails summed by hand.

@@ -60,7 +60,7 @@ pub struct Row {
     pub family: String,
     pub variant: String,
     pub scenario: String,
-    /// The variant's file, in the source tree.
+    /// The variant's file in the source tree.
     pub file: String,
     /// Absent where a run has no audit of it.
     pub accuracy: Option<AccuracyChange>,
@@ -173,7 +173,7 @@ pub fn compare(a: &Recorded, b: &Recorded, tolerances: Tolerances) -> Comparison
             family: cell_a.family.name.clone(),
             variant: cell_a.variant.name.clone(),
             scenario: cell_a.scenario.name.clone(),
-            file: cell_b.variant.file.clone(),
+            file: format!("glsl/{}", cell_b.variant.file),
             accuracy: audits.map(|(a, b)| accuracy::accuracy([a, b], bits, paired, level)),
             bits,
             times: timed(*cells)

@@ -126,7 +126,7 @@ impl Rules {
                     rule: number,
                     variant: id.clone(),
                     scenario: result.scenario.clone(),
-                    file: variant.file.clone(),
+                    file: format!("glsl/{}", variant.file),
                     what,
                 }));
             }
@@ -287,7 +287,7 @@ mod tests {
         assert_eq!(broken("[[rule]]\nmax_failed = 0.1").unwrap(), pairs("bad"));
         assert_eq!(broken("[[rule]]\nmax_failed = 0.5").unwrap(), []);
         assert_eq!(broken("[[rule]]\nmax_non_finite = 0").unwrap(), pairs("bad"));
-        assert_eq!(broken("[[rule]]\nmax_error = 1e-4\nquantile = \"p99\"").unwrap(), pairs("bad"));
+        assert_eq!(broken("[[rule]]\nmax_error = 1e-4\nquantile = \"p999\"").unwrap(), pairs("bad"));
         assert_eq!(broken("[[rule]]\nselect = \"family/g*\"\nmax_error = 1e-4").unwrap(), []);
         assert_eq!(broken("[[rule]]\nmax_time_ratio = 1.5").unwrap(), pairs("good"));
         assert_eq!(

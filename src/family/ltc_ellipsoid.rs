@@ -178,7 +178,7 @@ impl Problem for LtcEllipsoid {
                 .sum();
             of_minv + of_center + of_radius + rotation.sensitivity(exact3::symmetric(&solid) * by_own)
         };
-        truth.scalar(0, light.value, light.certificate(), sensitivity);
+        truth.scalar(0, light.value, light.bound, sensitivity);
     }
 }
 

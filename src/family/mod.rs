@@ -11,6 +11,7 @@ mod disk_solid_angle;
 mod div;
 mod edge_integral;
 mod ellipse_axes;
+mod ellipse_bounds;
 mod ellipse_solid_angle;
 mod ellipsoid_ellipse;
 mod ellipsoid_scenes;
@@ -37,6 +38,7 @@ mod pixel_cube;
 mod pixel_ortho;
 mod pow;
 mod problem;
+mod ray_ellipse;
 mod sin;
 mod sqrt;
 mod sym3_eigen;
@@ -58,6 +60,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &div::DIV,
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
+    &ellipse_bounds::EllipseBounds,
     &ellipse_solid_angle::EllipseSolidAngle,
     &ellipsoid_ellipse::EllipsoidEllipse,
     &ellipsoid_solid_angle::EllipsoidSolidAngle,
@@ -82,6 +85,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &pixel_cube::PixelCube,
     &pixel_ortho::PixelOrtho,
     &pow::POW,
+    &ray_ellipse::RayEllipse,
     &sin::SIN,
     &sqrt::SQRT,
     &sym3_eigen::Sym3Eigen,

@@ -9,6 +9,7 @@ pub mod cubic;
 pub mod cylinder_silhouette;
 pub mod disk_rectangle;
 pub mod double_double;
+pub mod elliptic_arc;
 pub mod exact;
 pub mod exact3;
 pub mod gauss_legendre;
