@@ -4,7 +4,7 @@
 #define ROOTQ_ELLIPSE_SOLID_ANGLE_DIRECT
 
 #include "common/cone_solid_angle.glsl"
-#include "common/disk_cone.glsl"
+#include "common/ellipse_cone.glsl"
 
 // Vectors whose largest component is 1..2. In its own plane: 2 pi from inside, 0 from outside; 0 without an area.
 //
@@ -13,10 +13,10 @@
 float ellipse_solid_angle_direct(vec3 C, vec3 V1, vec3 V2)
 {
     vec3 N = cross(V1, V2);
-    if (!(dot(N, N) > DISK_FLAT)) {
+    if (!(dot(N, N) > ELLIPSE_FLAT)) {
         return 0.0;
     }
-    DiskCone cone = disk_cone(C, V1, V2);
+    EllipseCone cone = ellipse_cone(C, V1, V2);
     if (!(cone.l > 1.0e-30)) {
         return CONE_TAU;
     }
