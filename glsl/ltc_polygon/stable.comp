@@ -1,7 +1,7 @@
 /*---
 summary = "Each edge by the cross product of its shorter end with the edge itself, nothing normalised; edges clipped one by one"
 source  = "ours, from Lambert's formula"
-tried   = "error-free cross products (stable_compensated) change nothing that counts; keeping the whole edge's cross product for its clipped part leaves the contour open by the rounding of the cuts: 2.6 % of near_plane fails; cuts as a corner and a part of the edge: 0.19 %"
+tried   = "Error-free cross products (stable_compensated) change nothing that counts. Keeping the whole edge's cross product for its clipped part leaves the contour open by the rounding of the cuts"
 
 [[variant]]
 name = "stable"
