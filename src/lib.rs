@@ -15,7 +15,7 @@
 //! most 2^20 configurations, and merges by integer addition and max.
 //!
 //! Who may use whom: `cli` -> `report` -> `record` -> `bench`, `job` -> `audit` -> `device`, `family` -> `catalog`, `sample`
-//! -> `numeric`; `cli` -> `fit` -> `sample`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
+//! -> `numeric`; `cli` -> `fit` -> `sample`; `cli`, `report` -> `probe` -> `device`, `catalog`, `sample`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
 
 pub mod audit;
 pub mod bench;
@@ -27,6 +27,7 @@ pub mod family;
 pub mod fit;
 pub mod job;
 pub mod numeric;
+pub mod probe;
 pub mod record;
 pub mod report;
 pub mod sample;

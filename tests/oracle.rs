@@ -12,7 +12,10 @@ const SCALAR: f64 = 1e-13;
 
 struct Row {
     line: usize,
+    /// By column name; of an input and an output of one name the output counts.
     cells: HashMap<String, String>,
+    /// The same, where the input counts.
+    inputs: HashMap<String, String>,
 }
 
 impl Row {
@@ -30,13 +33,15 @@ fn golden(family: &str) -> Vec<Row> {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.starts_with('#'));
     let header: Vec<&str> = lines.next().expect("a header").1.split(',').collect();
     lines
-        .map(|(number, line)| Row {
-            line: number + 1,
-            cells: header
+        .map(|(number, line)| {
+            let cells: Vec<(String, String)> = header
                 .iter()
                 .map(|name| (*name).to_owned())
                 .zip(line.split(',').map(str::to_owned))
-                .collect(),
+                .collect();
+            // Of equal keys the last counts.
+            let inputs = cells.iter().rev().cloned().collect();
+            Row { line: number + 1, cells: cells.into_iter().collect(), inputs }
         })
         .collect()
 }
@@ -93,7 +98,7 @@ fn check(problem: &dyn Problem) -> usize {
         let inputs: Vec<f32> = signature
             .input_columns()
             .iter()
-            .map(|column| parse_f32(&row.cells[column]).unwrap_or_else(|| panic!("{place}: {column}")))
+            .map(|column| parse_f32(&row.inputs[column]).unwrap_or_else(|| panic!("{place}: {column}")))
             .collect();
         let mut truth = Truth::new(problem.outputs());
         problem.oracle(&inputs, &mut truth);
@@ -112,7 +117,11 @@ fn check(problem: &dyn Problem) -> usize {
             };
             compared += 1;
             match output.quantity {
-                Quantity::Magnitude | Quantity::Scalar | Quantity::Irradiance | Quantity::SolidAngle => {
+                Quantity::Magnitude
+                | Quantity::Scalar
+                | Quantity::Irradiance
+                | Quantity::Coordinate
+                | Quantity::SolidAngle => {
                     let error = (got[0] - expected[0]).abs();
                     let allowed = scalar_tolerance(family, name, row) * expected[0].abs();
                     assert!(error <= allowed, "{place}: {name} {} for {}", got[0], expected[0]);

@@ -65,6 +65,7 @@ pub fn measure(output: &Output, values: &[f32], truth: &[f64], sensitivity: f64)
             let value = vector(values);
             vector_irradiance(output, value, DVec3::from_slice(truth), sensitivity)
         }
+        Quantity::Coordinate => coordinate(output, values[0], truth[0], sensitivity),
         Quantity::SolidAngle => solid_angle(output, values[0], truth[0], sensitivity),
         Quantity::Vector { sign_free } => {
             sized_vector(output, sign_free, vector(values), DVec3::from_slice(truth), sensitivity)
@@ -128,6 +129,14 @@ fn vector_irradiance(output: &Output, value: DVec3, truth: DVec3, sensitivity: f
     let error = (value - truth).length();
     let size = truth.length();
     Measure::graded(error, error, [f32_spacing(size), f16_spacing(size)], output, sensitivity)
+}
+
+fn coordinate(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Measure {
+    if !value.is_finite() {
+        return Measure::failed(Verdict::NonFinite);
+    }
+    let error = (f64::from(value) - truth).abs();
+    Measure::graded(error, error, [f32_spacing(truth), f16_spacing(truth)], output, sensitivity)
 }
 
 fn solid_angle(output: &Output, value: f32, truth: f64, sensitivity: f64) -> Measure {
@@ -366,6 +375,17 @@ mod tests {
         assert_eq!(verdict(1.01, 1.0, 1.0), Verdict::OutOfRange);
         assert_eq!(verdict(f32::NAN, 1.0, 1.0), Verdict::NonFinite);
         assert_eq!(verdict(0.5, 0.3, 1.0 / UNIT_ROUNDOFF), Verdict::IllConditioned);
+    }
+
+    #[test]
+    fn coordinates() {
+        let place = Output::new("x", Type::Float, Quantity::Coordinate, 1e-3);
+        let verdict =
+            |value: f32, truth, sensitivity| measure(&place, &[value], &[truth], sensitivity).verdict;
+        assert_eq!(verdict(-0.000_9, 0.0, 1.0), Verdict::Ok);
+        assert_eq!(verdict(-1.001_1, -1.0, 1.0), Verdict::Inaccurate);
+        assert_eq!(verdict(0.002, 0.0, 1e6), Verdict::IllConditioned);
+        assert_eq!(verdict(f32::INFINITY, 1.0, f64::INFINITY), Verdict::NonFinite);
     }
 
     #[test]

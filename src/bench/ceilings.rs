@@ -17,7 +17,7 @@ const COPIED_SOFTWARE: usize = 32 << 20;
 const COPIED: usize = 256 << 20;
 /// Invocations of an arithmetic kernel: some for every lane of a device. A software device has few lanes.
 const LANES_SOFTWARE: usize = 1 << 12;
-const LANES: usize = 1 << 19;
+const LANES: usize = 1 << 20;
 /// A sample lasts about so long: short, so that some fall between the interruptions of a busy machine.
 const SAMPLE: Duration = Duration::from_millis(3);
 /// Samples of every kernel, and more of the best one.

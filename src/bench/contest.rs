@@ -1,17 +1,17 @@
 //! Variants timed against each other on a device.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 use super::ceilings::no_loops;
+use super::trial::{Loaned, Trial};
 use super::{
-    Bound, Ceilings, Coherence, Effort, Quartiles, Ranking, Regime, Sampler, Setting, Share, Timing, rounds,
-    standing,
+    Bound, Ceilings, Coherence, Effort, Quartiles, Ranking, Regime, Setting, Share, Timing, rounds, standing,
 };
 use crate::audit::Stopped;
 use crate::catalog::Operations;
 use crate::catalog::kernel::LOCAL_SIZE;
-use crate::device::{self, Clock, Device, Outputs};
+use crate::device::{self, Device};
 
 /// Configurations that are drawn of a scenario: columns too large for most caches.
 pub const CONFIGURATIONS: usize = 1 << 18;
@@ -26,7 +26,9 @@ const LEAST_STREAMED: usize = 1 << 14;
 
 /// Invocations in the arithmetic regime: some for every lane of a device, of which a software device has few.
 const LANES_SOFTWARE: usize = 1 << 12;
-const LANES: usize = 1 << 18;
+const LANES: usize = 1 << 20;
+/// Not longer than this, or the device would split a dispatch and leave lanes idle.
+const LONGEST_LOOP: Duration = Duration::from_millis(30);
 /// Evaluations an invocation: enough for loads and stores not to matter, few enough for a watchdog.
 const EVALUATIONS: std::ops::RangeInclusive<u32> = 16..=4096;
 
@@ -207,7 +209,7 @@ impl<D: Device> Contest<'_, D> {
         Ok(trial)
     }
 
-    /// Programs and columns for the arithmetic regime, where the slowest takes about four samples' time.
+    /// Programs and columns for the arithmetic regime, where the slowest takes up to four samples' time.
     fn arithmetic<'b>(
         &'b self,
         coherence: Coherence,
@@ -228,7 +230,8 @@ impl<D: Device> Contest<'_, D> {
         let few = *EVALUATIONS.start();
         let mut trial = Trial::new(self.device, programs(few)?, inputs, rows, few, stop);
         let slowest = trial.measure()?.into_iter().max().unwrap_or_default();
-        let fitting = 4.0 * sample.as_secs_f64() / (slowest.as_secs_f64() / f64::from(few)).max(1e-12);
+        let fitting = (4 * sample).min(LONGEST_LOOP).as_secs_f64()
+            / (slowest.as_secs_f64() / f64::from(few)).max(1e-12);
         trial.evaluations = (1 << fitting.clamp(1.0, 1e9).log2() as u32).clamp(few, *EVALUATIONS.end());
         trial.programs = programs(trial.evaluations)?;
         Ok(trial)
@@ -257,103 +260,5 @@ impl Ceilings {
     }
 }
 
-/// A program of the entrant's or made for the contest.
-enum Loaned<'a, D: Device> {
-    Borrowed(&'a D::Program),
-    Owned(D::Program),
-}
-
-impl<D: Device> Loaned<'_, D> {
-    fn get(&self) -> &D::Program {
-        match self {
-            Loaned::Borrowed(program) => program,
-            Loaned::Owned(program) => program,
-        }
-    }
-}
-
-/// Programs and columns that belong together: the source of samples.
-struct Trial<'a, D: Device> {
-    device: &'a D,
-    programs: Vec<Loaned<'a, D>>,
-    inputs: D::Inputs,
-    rows: usize,
-    evaluations: u32,
-    /// Which program each entry is.
-    entries: Vec<usize>,
-    /// Submissions a sample of each entry.
-    repeats: Vec<usize>,
-    clock: Clock,
-    start: Instant,
-    advance: &'a dyn Fn(),
-    stop: &'a AtomicBool,
-}
-
-impl<'a, D: Device> Trial<'a, D> {
-    fn new(
-        device: &'a D,
-        programs: Vec<Loaned<'a, D>>,
-        inputs: D::Inputs,
-        rows: usize,
-        evaluations: u32,
-        stop: &'a AtomicBool,
-    ) -> Self {
-        let entries: Vec<usize> = (0..programs.len()).collect();
-        Trial {
-            device,
-            repeats: vec![1; entries.len()],
-            entries,
-            programs,
-            inputs,
-            rows,
-            evaluations,
-            clock: Clock::DeviceTimestamps,
-            start: Instant::now(),
-            advance: &|| (),
-            stop,
-        }
-    }
-
-    fn submission(&mut self, program: usize) -> Result<Duration, Stopped> {
-        if self.stop.load(Ordering::Relaxed) {
-            return Err(Stopped::Interrupted);
-        }
-        let pending = self.device.submit(self.programs[program].get(), &self.inputs)?;
-        let elapsed = self.device.wait(pending)?.elapsed();
-        self.clock = elapsed.clock;
-        Ok(elapsed.time)
-    }
-
-    /// The time of one submission of each program, after one that may pay for first use.
-    fn measure(&mut self) -> Result<Vec<Duration>, Stopped> {
-        (0..self.programs.len())
-            .map(|program| {
-                self.submission(program)?;
-                self.submission(program)
-            })
-            .collect()
-    }
-}
-
-impl<D: Device> Sampler for Trial<'_, D> {
-    type Error = Stopped;
-
-    fn entries(&self) -> usize {
-        self.entries.len()
-    }
-
-    fn sample(&mut self, entry: usize) -> Result<f64, Stopped> {
-        let mut time = Duration::ZERO;
-        for _ in 0..self.repeats[entry] {
-            time += self.submission(self.entries[entry])?;
-        }
-        (self.advance)();
-        let evaluations = self.repeats[entry] as f64 * self.rows as f64 * f64::from(self.evaluations);
-        // A clock too coarse to see a sample must not make a ratio of it zero or infinite.
-        Ok((time.as_secs_f64() * 1e9 / evaluations).max(1e-9))
-    }
-
-    fn now(&self) -> Duration {
-        self.start.elapsed()
-    }
-}
+#[cfg(test)]
+mod tests;

@@ -1,4 +1,8 @@
 //! Throughput: how long a device takes for a configuration, by its own clock.
+//!
+//! [`Contest`] times variants against each other on a device: [`rounds`] takes interleaved samples until ratios are known
+//! or time is up, and [`standing`] says what follows from them; neither knows a device. [`ceilings`] are what the device
+//! does at best.
 
 mod bootstrap;
 mod ceilings;
@@ -9,6 +13,7 @@ mod ranking;
 mod rounds;
 mod statistics;
 mod timing;
+mod trial;
 
 pub use ceilings::ceilings;
 pub use contest::{CONFIGURATIONS, Contest, Entrant};

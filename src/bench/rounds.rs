@@ -166,6 +166,7 @@ fn throttled(samples: &[Vec<f64>]) -> Vec<bool> {
 mod tests {
     use super::*;
     use crate::bench::noise::Noise;
+    use crate::bench::standing;
 
     /// Entries of given times under given noise; every sample takes a millisecond of a clock that only samples move.
     struct Synthetic {
@@ -236,6 +237,26 @@ mod tests {
         let mut noisy = Synthetic::new(&[30.0, 12.0], 0.3);
         let taken = rounds(&mut noisy, 0, &Effort { max_rounds: 40, ..effort() }).unwrap();
         assert_eq!((taken.stopped, taken.samples[0].len() + taken.discarded), (Stop::Rounds, 40));
+    }
+
+    /// Stopping when intervals are narrow, and looking several times, makes no more of identical variants than one of
+    /// twenty pairs.
+    #[test]
+    fn stopping_early_ranks_nobody() {
+        let (mut told_apart, mut pairs, mut early) = (0, 0, 0);
+        for seed in 0..60 {
+            let mut sampler = Synthetic::new(&[10.0; 4], 0.01);
+            sampler.noise = Noise::new(seed);
+            let taken = rounds(&mut sampler, 0, &Effort { narrow: 0.008, ..effort() }).unwrap();
+            early += usize::from(taken.stopped == Stop::Narrow);
+            let ranks = standing(&taken.samples[..3], 0, &taken.samples[3], &|_, _| false).ranks;
+            for (a, b) in [(0, 1), (0, 2), (1, 2)] {
+                pairs += 1;
+                told_apart += usize::from(ranks[a].last < ranks[b].first || ranks[b].last < ranks[a].first);
+            }
+        }
+        assert!(early >= 30, "only {early} stopped early");
+        assert!(told_apart * 20 < pairs, "{told_apart} of {pairs}");
     }
 
     /// Too little time still gives the least rounds, and one entry alone is nothing to wait for.

@@ -9,7 +9,7 @@ use anyhow::{Result, anyhow, bail};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
-use super::run::{self, Arguments, Prepared};
+use super::run::{self, Arguments, Measured, Prepared};
 use super::selection::{self, Selected};
 use crate::audit::{MAX_CHUNK, Sweep};
 use crate::catalog::Catalog;
@@ -114,7 +114,7 @@ pub(super) fn audit(
         }
     }
     machine.check_validation()?;
-    let measured = run::Measured {
+    let measured = Measured {
         configurations: range.end - range.start,
         device: facts,
         ceilings: None,

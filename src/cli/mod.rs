@@ -46,7 +46,9 @@ enum Verb {
     /// The Vulkan devices of this machine
     ///
     /// Lists every device the Vulkan loader finds, in the order of '--device' indices. VK_DRIVER_FILES chooses the
-    /// drivers, as for any Vulkan program; ROOTQ_VULKAN_LOADER names another loader library than the system's.
+    /// drivers, as for any Vulkan program; ROOTQ_VULKAN_LOADER names another loader library than the system's. With
+    /// --probe it says what each does: whether fma() is fused, subnormals are kept, how results are rounded, what NaN and
+    /// infinity do to comparisons, min and max, and how finely a sampler interpolates.
     Devices(devices::Arguments),
     /// Families, their columns and scenarios, and variants
     ///

@@ -11,9 +11,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::count;
 use super::machine::DeviceArguments;
 use super::selection::{self, Selected};
-use super::timing::{Timed, Timer, TimingArguments};
+use super::timing::{Depth, Timed, Timer, TimingArguments};
 use crate::audit::{self, MAX_CHUNK, Plan};
-use crate::bench::Regime;
+use crate::bench::{Ceilings, Regime};
 use crate::catalog::{self, Catalog, Compiled, Variant};
 use crate::device::{self, Device, vulkan::VulkanDevice};
 use crate::family::Scenario;
@@ -116,8 +116,8 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         .collect::<Result<Vec<_>>>()?;
     let timer = match halves {
         Halves::Audit => None,
-        Halves::Both => Some(Timer::new(&arguments.timing, &machine.device, SECONDS_OF_RUN, stop)?),
-        Halves::Bench => Some(Timer::new(&arguments.timing, &machine.device, SECONDS_OF_BENCH, stop)?),
+        Halves::Both => Some(Timer::new(&arguments.timing, &machine.device, Depth::Glance, stop)?),
+        Halves::Bench => Some(Timer::new(&arguments.timing, &machine.device, Depth::Study, stop)?),
     };
     let mut evidence = Vec::new();
     for family in &mut families {
@@ -129,7 +129,8 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
             if halves == Halves::Bench && timer.is_none() {
                 break;
             }
-            measure(family, scenario, &machine.device, arguments, halves, timer, stop, &mut evidence)?;
+            let work = Work { audit: halves != Halves::Bench, timer };
+            measure(family, scenario, &machine.device, arguments, work, stop, &mut evidence)?;
         }
     }
     machine.check_validation()?;
@@ -149,7 +150,7 @@ pub(super) struct Measured {
     /// Configurations a scenario.
     pub(super) configurations: u64,
     pub(super) device: device::Facts,
-    pub(super) ceilings: Option<crate::bench::Ceilings>,
+    pub(super) ceilings: Option<Ceilings>,
     pub(super) families: Vec<record::Family>,
     pub(super) evidence: Vec<Evidence>,
 }
@@ -230,9 +231,12 @@ pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepa
     Ok(Prepared { record, selected, programs, places })
 }
 
-/// Seconds a ranking where nobody says: enough for a place in a table, and for a place that may be believed.
-const SECONDS_OF_RUN: f64 = 0.5;
-const SECONDS_OF_BENCH: f64 = 3.0;
+/// What is to be done on a scenario.
+#[derive(Clone, Copy)]
+struct Work<'a> {
+    audit: bool,
+    timer: Option<&'a Timer<'a>>,
+}
 
 /// One scenario of one family: audit, times, or both, into the family's record.
 fn measure(
@@ -240,8 +244,7 @@ fn measure(
     scenario: &'static Scenario,
     device: &VulkanDevice,
     arguments: &Arguments,
-    halves: Halves,
-    timer: Option<&Timer>,
+    work: Work<'_>,
     stop: &AtomicBool,
     evidence: &mut Vec<Evidence>,
 ) -> Result<()> {
@@ -267,7 +270,7 @@ fn measure(
         .collect();
     let (mut oracle, mut digest) = (None, None);
 
-    if halves != Halves::Bench {
+    if work.audit {
         let total = arguments.configurations * family.programs.len() as u64;
         let bar = bar(total, &format!("audit {label}"), "{human_pos} of {human_len}  {elapsed}, {eta} to go");
         let audited = audit::audit(device, &family.programs, &plan, &|count| bar.inc(count), stop)?;
@@ -286,7 +289,7 @@ fn measure(
         }
     }
     let mut rankings = Vec::new();
-    if let Some(timer) = timer {
+    if let Some(timer) = work.timer {
         let variants: Vec<&Variant> =
             family.places.iter().map(|place| &family.selected.variants[*place]).collect();
         let facts = family.places.iter().map(|place| &family.record.variants[*place].spirv);

@@ -19,7 +19,7 @@ use crate::family::{Problem, Scenario};
 #[derive(Args, Debug)]
 pub(super) struct TimingArguments {
     /// Seconds of timing each regime, unless intervals are narrow before; 11 rounds over all variants are taken in any
-    /// case [default: 3 for bench, 0.5 for run]
+    /// case [default: 3 for bench, 0.3 for run]
     #[arg(long, value_name = "S")]
     seconds: Option<f64>,
     /// Only this regime; may be given again [default: both]
@@ -88,10 +88,29 @@ fn is_named(variant: &Variant, name: &str) -> bool {
     variant.name == name || variant.id() == name
 }
 
+/// How much to measure where nobody says.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Depth {
+    /// Enough for a column beside an audit, which has just warmed the device up.
+    Glance,
+    /// Enough for a place that may be believed.
+    Study,
+}
+
+impl Depth {
+    fn effort(self) -> Effort {
+        let (warm_up, time) = match self {
+            Depth::Glance => (Duration::from_millis(100), Duration::from_millis(300)),
+            Depth::Study => (Duration::from_millis(400), Duration::from_secs(3)),
+        };
+        Effort { warm_up, time, ..Effort::default() }
+    }
+}
+
 /// What all timing of a run has in common.
 pub(super) struct Timer<'a> {
     arguments: &'a TimingArguments,
-    seconds: f64,
+    effort: Effort,
     pub(super) ceilings: Ceilings,
 }
 
@@ -110,13 +129,17 @@ impl<'a> Timer<'a> {
     pub(super) fn new(
         arguments: &'a TimingArguments,
         device: &VulkanDevice,
-        default_seconds: f64,
+        depth: Depth,
         stop: &AtomicBool,
     ) -> Result<Self> {
         let bar = bar(0, "ceilings", "{elapsed}");
         let ceilings = bench::ceilings(device, stop)?;
         bar.finish_and_clear();
-        Ok(Timer { arguments, seconds: arguments.seconds.unwrap_or(default_seconds), ceilings })
+        let mut effort = depth.effort();
+        if let Some(seconds) = arguments.seconds {
+            effort.time = Duration::from_secs_f64(seconds);
+        }
+        Ok(Timer { arguments, effort, ceilings })
     }
 
     /// One ranking a setting, and one timing a variant for each.
@@ -172,7 +195,7 @@ impl<'a> Timer<'a> {
             &format!("bench {}/{}", timed.problem.name(), timed.scenario.name),
             "{human_pos} samples {elapsed}",
         );
-        let mut effort = Effort { time: Duration::from_secs_f64(self.seconds), ..Effort::default() };
+        let mut effort = self.effort;
         let mut results = Vec::new();
         for setting in self.arguments.settings() {
             results.push(contest.run(setting, &effort, &|| bar.inc(1), stop)?);

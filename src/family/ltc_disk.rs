@@ -238,7 +238,7 @@ impl Problem for LtcDisk {
             let image = [c, a, b].map(|v| DVec3::from_array(v.map(|component| component.value())));
             sensitivity(light_of_cone.gradient, &minv, &light, &image, scale)
         };
-        truth.scalar(0, light_of_cone.value, light_of_cone.certificate(), sensitivity);
+        truth.scalar(0, light_of_cone.value, light_of_cone.bound, sensitivity);
     }
 }
 

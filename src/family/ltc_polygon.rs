@@ -14,10 +14,10 @@ use glam::DVec3;
 
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
-use crate::numeric::double_double::{DoubleDouble, Real};
 use crate::numeric::exact;
-use crate::numeric::polygon_irradiance::{Irradiance, irradiance};
-use crate::numeric::spacing::f32_spacing;
+use crate::numeric::line_integral::{matrix, vector};
+use crate::numeric::polygon_irradiance::{certificate, of_pairs};
+use crate::numeric::products::{self, Pairs};
 
 mod scenarios;
 
@@ -26,11 +26,6 @@ pub(super) struct LtcPolygon;
 /// Columns of Minv and of the corners among the inputs.
 const MINV: usize = 0;
 const CORNERS: usize = 9;
-
-/// The relative error that more precision is taken for: 1.5e-11, well beyond what certifying an f32 takes.
-const ACCURACY: f64 = 1.0 / (1u64 << 36) as f64;
-/// Below this irradiance the error is absolute.
-const FLOOR: f64 = 1.0 / (1u64 << 52) as f64;
 
 impl Problem for LtcPolygon {
     fn name(&self) -> &'static str {
@@ -89,7 +84,7 @@ impl Problem for LtcPolygon {
                 summary: "sine of the elevation of the transformed light's centre; at 0 the horizon cuts it",
                 edges: &[-0.5, -0.1, -0.01, 0.0, 0.01, 0.1, 0.5, 0.9],
                 coordinate: |input, _| {
-                    let [a, b, c, d] = transformed_f64(input).map(DVec3::from_array);
+                    let [a, b, c, d] = transformed(input).map(|q| products::rounded(&q));
                     let centre = a + b + c + d;
                     centre.z / centre.length()
                 },
@@ -98,14 +93,11 @@ impl Problem for LtcPolygon {
     }
 
     fn oracle(&self, input: &[f32], truth: &mut Truth) {
-        let mut found = shaded(transformed_f64(input));
-        let certain =
-            |found: &Irradiance<4>| !found.touched && found.bound <= ACCURACY * found.value.abs().max(FLOOR);
-        if !certain(&found) {
+        let mut found = of_pairs(&transformed(input));
+        if found.escalated {
             truth.escalate();
-            found = shaded(transformed(input));
         }
-        if (!certain(&found) || found.value.abs() < FLOOR) && flat(input) {
+        if !found.is_certain() && flat(input) {
             // All edges lie in one plane with the origin. Outside the outline their angles cancel.
             found.touched |= found.value.abs() > 1e-9 || found.bound >= 1.0;
             found.value = 0.0;
@@ -116,35 +108,13 @@ impl Problem for LtcPolygon {
             return;
         }
         let value = found.value.abs();
-        // The floor's bound is told in the value's own spacing, as certification counts it.
-        let bound = found.bound * (f32_spacing(value) / f32_spacing(value.max(FLOOR)));
-        truth.scalar(0, value, bound, sensitivity(input, &found.gradient));
+        truth.scalar(0, value, certificate(value, found.bound), sensitivity(input, &found.gradient));
     }
-}
-
-/// The irradiance of transformed corners, its bound widened by that of the corners: one rounding of each component.
-fn shaded<T: Real>(corners: [[T; 3]; 4]) -> Irradiance<4> {
-    // By a power of two, exactly: no square leaves f64's range.
-    let largest = corners
-        .iter()
-        .flatten()
-        .fold(0.0f64, |largest, c| largest.max(c.to_f64().abs()))
-        .clamp(1e-200, 1e200);
-    let scale = T::from(libm::exp2(-libm::floor(libm::log2(largest))));
-    let corners = corners.map(|corner| corner.map(|c| c * scale));
-    let mut found = irradiance(&corners);
-    for (corner, gradient) in corners.iter().zip(&mut found.gradient) {
-        for (component, slope) in corner.iter().zip(gradient.to_array()) {
-            found.bound += 2.0 * T::ROUNDOFF * (component.to_f64() * slope).abs();
-        }
-        *gradient *= scale.to_f64();
-    }
-    found
 }
 
 /// The change of the irradiance when every component of Minv and of the corners changes by its own magnitude.
 fn sensitivity(input: &[f32], gradient: &[DVec3; 4]) -> f64 {
-    let minv: [DVec3; 3] = core::array::from_fn(|column| vector(input, MINV + 3 * column));
+    let minv: [DVec3; 3] = core::array::from_fn(|column| vector(&input[MINV + 3 * column..]));
     let corners = lights(input);
     let mut change = 0.0;
     for (column, entries) in minv.iter().enumerate() {
@@ -155,50 +125,20 @@ fn sensitivity(input: &[f32], gradient: &[DVec3; 4]) -> f64 {
     change
 }
 
-fn vector(input: &[f32], first: usize) -> DVec3 {
-    DVec3::new(f64::from(input[first]), f64::from(input[first + 1]), f64::from(input[first + 2]))
-}
-
 fn lights(input: &[f32]) -> [DVec3; 4] {
-    core::array::from_fn(|corner| vector(input, CORNERS + 3 * corner))
+    core::array::from_fn(|corner| vector(&input[CORNERS + 3 * corner..]))
 }
 
-/// The three exact products whose sum is component `row` of Minv p.
-fn products(input: &[f32], corner: usize, row: usize) -> [f64; 3] {
-    let p = CORNERS + 3 * corner;
-    core::array::from_fn(|column| f64::from(input[MINV + 3 * column + row]) * f64::from(input[p + column]))
-}
-
-/// Minv times the corners, each component rounded once or almost: within 2^-53 of itself and 2^-104 of its terms.
-fn transformed_f64(input: &[f32]) -> [[f64; 3]; 4] {
-    core::array::from_fn(|corner| {
-        core::array::from_fn(|row| {
-            let terms = products(input, corner, row);
-            let [a, b, c] = terms;
-            let (ab, ab_error) = exact::two_sum(a, b);
-            let (sum, error) = exact::two_sum(ab, c);
-            let total = sum + (ab_error + error);
-            // Signs decide what the horizon clips, and exact zeros stay zeros.
-            if total.abs() > 1e-12 * (a.abs() + b.abs() + c.abs()) { total } else { exact::sum(&terms) }
-        })
-    })
-}
-
-/// Minv times the corners within 2^-105 of each component.
-fn transformed(input: &[f32]) -> [[DoubleDouble; 3]; 4] {
-    core::array::from_fn(|corner| {
-        core::array::from_fn(|row| {
-            let [a, b, c] = products(input, corner, row);
-            let high = exact::sum(&[a, b, c]);
-            DoubleDouble::new(high, exact::sum(&[a, b, c, -high]))
-        })
-    })
+/// Minv times the corners.
+fn transformed(input: &[f32]) -> [Pairs; 4] {
+    let minv = matrix(input);
+    lights(input).map(|p| products::transform_pairs(&minv, &[p]))
 }
 
 /// Whether the transformed corners lie in one plane with the origin, exactly.
 fn flat(input: &[f32]) -> bool {
     let corners = lights(input);
-    let minv: [DVec3; 3] = core::array::from_fn(|column| vector(input, MINV + 3 * column));
+    let minv: [DVec3; 3] = core::array::from_fn(|column| vector(&input[MINV + 3 * column..]));
     let flat = |a: DVec3, b: DVec3, c: DVec3| {
         let positive = [[a.x, b.y, c.z], [a.y, b.z, c.x], [a.z, b.x, c.y]];
         let negative = [[-a.z, b.y, c.x], [-a.y, b.x, c.z], [-a.x, b.z, c.y]];

@@ -197,7 +197,7 @@ impl Problem for LtcSphere {
             let of_radius = (2.0 * r * r * (by_own.x_axis.x + by_own.y_axis.y + by_own.z_axis.z)).abs();
             of_minv + of_center + of_radius
         };
-        truth.scalar(0, light.value, light.certificate(), sensitivity);
+        truth.scalar(0, light.value, light.bound, sensitivity);
     }
 }
 

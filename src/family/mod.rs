@@ -11,6 +11,11 @@ mod disk_solid_angle;
 mod div;
 mod edge_integral;
 mod ellipse_axes;
+mod ellipse_bounds;
+mod ellipse_solid_angle;
+mod ellipsoid_ellipse;
+mod ellipsoid_scenes;
+mod ellipsoid_solid_angle;
 mod exp;
 mod exp2;
 mod fma;
@@ -33,6 +38,7 @@ mod pixel_cube;
 mod pixel_ortho;
 mod pow;
 mod problem;
+mod ray_ellipse;
 mod sin;
 mod sqrt;
 mod sym3_eigen;
@@ -46,23 +52,27 @@ pub use problem::{
 pub static FAMILIES: &[&dyn Problem] = &[
     &acos::ACOS,
     &asin::ASIN,
-    &atan2::ATAN2,
     &atan::ATAN,
+    &atan2::ATAN2,
     &cone_axes::ConeAxes,
     &cos::COS,
     &disk_solid_angle::DiskSolidAngle,
     &div::DIV,
     &edge_integral::EdgeIntegral,
     &ellipse_axes::EllipseAxes,
-    &exp2::EXP2,
+    &ellipse_bounds::EllipseBounds,
+    &ellipse_solid_angle::EllipseSolidAngle,
+    &ellipsoid_ellipse::EllipsoidEllipse,
+    &ellipsoid_solid_angle::EllipsoidSolidAngle,
     &exp::EXP,
+    &exp2::EXP2,
     &fma::FMA,
     &horizon_sphere::HorizonSphere,
     &inversesqrt::INVERSESQRT,
     &latlong_solid_angle::LatlongSolidAngle,
     &length::LENGTH,
-    &log2::LOG2,
     &log::LOG,
+    &log2::LOG2,
     &ltc_cylinder::LtcCylinder,
     &ltc_disk::LtcDisk,
     &ltc_ellipsoid::LtcEllipsoid,
@@ -75,6 +85,7 @@ pub static FAMILIES: &[&dyn Problem] = &[
     &pixel_cube::PixelCube,
     &pixel_ortho::PixelOrtho,
     &pow::POW,
+    &ray_ellipse::RayEllipse,
     &sin::SIN,
     &sqrt::SQRT,
     &sym3_eigen::Sym3Eigen,

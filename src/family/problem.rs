@@ -102,6 +102,8 @@ pub enum Quantity {
     Irradiance,
     /// A vector of irradiances, such as one edge's contribution: absolute error, as the distance of the two.
     VectorIrradiance,
+    /// A coordinate within -1..1, such as a place along a semi-axis: absolute error.
+    Coordinate,
     /// A solid angle in steradians: relative error, within 0..4 pi.
     SolidAngle,
     /// A vector that has a length, such as a centre or a semi-axis: distance of the two over the truth's length. With

@@ -8,31 +8,37 @@
 //! E = (1/2 pi) |contour integral of (q x dq).z/|q|^2|
 //! ```
 //!
-//! Generators are angles in closed form. Arcs are Gauss panels short enough for the integrand's poles, |q(phi)| = 0 at
-//! complex phi, to stay outside of an ellipse in which the rule is good to 1e-16: 1/|q|^2 has an elementary
-//! antiderivative only in the roots of a quartic, which cost more digits than the panels do.
+//! Generators are angles, arcs have the closed form of [`super::elliptic_arc`]; what a thin or distant cylinder cancels
+//! to is left to double-double.
 
 use core::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec3};
 
-use super::gauss_legendre::{self, POINTS_8, POINTS_16};
+use super::double_double::{DoubleDouble, Real};
+use super::elliptic_arc::{Cone, Ellipse, Vector, cross, difference, dot};
 use super::line_integral::Visible;
-use super::products::norm;
+use super::products::{self, norm};
 
-/// A cylinder about p1..p2, its radius positive and its ends apart.
+/// A cylinder about p1..p2, its radius positive and its ends apart; coordinates of f32.
 #[derive(Clone, Copy, Debug)]
 pub struct Cylinder {
     pub ends: [DVec3; 2],
     pub radius: f64,
-    length: f64,
-    axis: DVec3,
+    frame: Frame<f64>,
+}
+
+/// Where the origin is, seen from a cylinder.
+#[derive(Clone, Copy, Debug)]
+struct Frame<T> {
+    length: T,
+    axis: Vector<T>,
     /// Across the axis, towards the origin, and the third direction axis x towards.
-    towards: DVec3,
-    across: DVec3,
+    towards: Vector<T>,
+    across: Vector<T>,
     /// Distance of the origin from the infinite axis, and its place along it from the first end.
-    gap: f64,
-    place: f64,
+    gap: T,
+    place: T,
 }
 
 /// The irradiance of a cylinder and its derivatives.
@@ -50,72 +56,267 @@ pub struct Seen {
     pub by_axis: DVec3,
 }
 
+impl<T: Real> Frame<T> {
+    fn new([p1, p2]: [DVec3; 2]) -> Self {
+        let times = |v: Vector<T>, factor: T| v.map(|c| c * factor);
+        let along: Vector<T> = difference(lift(p2), lift(p1));
+        let length = dot(along, along).sqrt();
+        let axis = along.map(|c| c / length);
+        let place = -dot(lift(p1), axis);
+        // The nearer end keeps the foot's digits.
+        let nearer = place.to_f64().abs() < (place - length).to_f64().abs();
+        let mut foot = lift(if nearer { p1 } else { p2 });
+        for _ in 0..2 {
+            foot = difference(foot, times(axis, dot(foot, axis)));
+        }
+        let gap = dot(foot, foot).sqrt();
+        let towards = if gap.to_f64() > 0.0 {
+            foot.map(|c| -c / gap)
+        } else {
+            // Any direction across.
+            let any = lift(DVec3::from_array(axis.map(T::to_f64)).any_orthonormal_vector());
+            let any = difference(any, times(axis, dot(any, axis)));
+            let size = dot(any, any).sqrt();
+            any.map(|c| c / size)
+        };
+        Frame { length, axis, towards, across: cross(axis, towards), gap, place }
+    }
+}
+
 impl Cylinder {
     pub fn new(p1: DVec3, p2: DVec3, radius: f64) -> Cylinder {
-        let length = norm(p2 - p1);
-        let axis = (p2 - p1) / length;
-        let place = -p1.dot(axis);
-        // The nearer end keeps the foot's digits.
-        let foot = if place.abs() < (place - length).abs() { p1 } else { p2 };
-        let foot = foot - foot.dot(axis) * axis;
-        let foot = foot - foot.dot(axis) * axis;
-        let gap = norm(foot);
-        let towards = if gap > 0.0 { -foot / gap } else { axis.any_orthonormal_vector() };
-        let across = axis.cross(towards);
-        Cylinder { ends: [p1, p2], radius, length, axis, towards, across, gap, place }
+        Cylinder { ends: [p1, p2], radius, frame: Frame::new([p1, p2]) }
     }
 
     /// Whether the origin is in the cylinder or on it.
     pub fn holds_origin(&self) -> bool {
-        self.gap <= self.radius && (0.0..=self.length).contains(&self.place)
+        self.frame.gap <= self.radius && (0.0..=self.frame.length).contains(&self.frame.place)
     }
 
-    /// The irradiance through `map` of a cylinder that does not hold the origin.
+    /// The irradiance through `map`, of f32 values, of a cylinder that does not hold the origin, and its derivatives.
     ///
     /// Absolute error about 16 EPS of `terms` (EPS = 2^-53), and what a few EPS of the coordinates change.
     pub fn seen(&self, map: &DMat3) -> Seen {
-        let mut contour =
-            Contour { cylinder: self, map, seen: Seen::default(), sum: 0.0, first: None, last: None };
-        if self.gap <= self.radius {
-            contour.arc(usize::from(self.place > 0.0), [0.0, TAU], [0, 0]);
-        } else {
-            let side = (self.gap - self.radius) * (self.gap + self.radius);
-            let rim = libm::atan2(libm::sqrt(side), self.radius);
-            let (far1, far2) = (self.place < 0.0, self.place > self.length);
-            contour.generator([0, 1], rim, [0, 1]);
-            contour.arc(1, [rim, if far2 { TAU - rim } else { -rim }], [1, 2]);
-            contour.generator([1, 0], -rim, [2, 3]);
-            contour.arc(0, [-rim, if far1 { rim - TAU } else { rim }], [3, 0]);
-        }
-        contour.close()
+        let silhouette = Silhouette::new(self, self.frame, map, products::determinant(map));
+        let mut derivatives = Derivatives { cylinder: self, map, seen: Seen::default() };
+        let (irradiance, terms) = silhouette.walk(|piece| derivatives.add(piece));
+        Seen { irradiance, terms, ..derivatives.finish() }
     }
 
-    fn radial(&self, angle: f64) -> DVec3 {
-        let (sin, cos) = angle.sin_cos();
-        cos * self.towards + sin * self.across
+    /// The irradiance by the same in double-double, and the sum of the terms' magnitudes: errors are 2^-88 of that.
+    pub fn seen_finely(&self, map: &DMat3) -> (f64, f64) {
+        let columns: [Vector<DoubleDouble>; 3] = [lift(map.x_axis), lift(map.y_axis), lift(map.z_axis)];
+        let determinant = dot(columns[0], cross(columns[1], columns[2]));
+        Silhouette::new(self, Frame::new(self.ends), map, determinant).walk(|_| ())
     }
+}
+
+/// The mapped rims, and where the generators touch them.
+struct Silhouette<T> {
+    /// t = 0 is towards the origin.
+    rims: [Ellipse<T>; 2],
+    gap: f64,
+    radius: f64,
+    place: f64,
+    length: f64,
+    /// Cosine and sine of the generators' angle about the axis.
+    touch: [T; 2],
+}
+
+/// A part of the contour.
+enum Piece<T> {
+    /// A generator of the touching angle's sign between these rims, seen or not.
+    Generator { rims: [usize; 2], sign: f64, ends: [Vector<T>; 2] },
+    /// The visible part of a rim, or all of it; t counts from `signs[0]` towards, with the sign of `signs[1]`.
+    Arc { rim: usize, signs: [f64; 2], ellipse: Ellipse<T>, cone: Cone<T>, ends: Option<(Vector<T>, Vector<T>, f64)> },
 }
 
 /// An end of a visible piece: the point, and which corner of the contour it is unless the horizon cut it.
-type End = (DVec3, Option<u8>);
+type End<T> = (Vector<T>, Option<u8>);
 
-struct Contour<'a> {
-    cylinder: &'a Cylinder,
-    map: &'a DMat3,
-    seen: Seen,
-    sum: f64,
-    first: Option<End>,
-    last: Option<End>,
+/// The sum along a contour.
+struct Sum<T> {
+    value: T,
+    size: f64,
+    first: Option<End<T>>,
+    last: Option<End<T>>,
 }
 
-impl Contour<'_> {
-    fn add(&mut self, term: f64) {
-        self.sum += term;
-        self.seen.terms += term.abs() / TAU;
+impl<T: Real> Silhouette<T> {
+    fn new(cylinder: &Cylinder, frame: Frame<T>, map: &DMat3, determinant: T) -> Self {
+        let columns: [Vector<T>; 3] = [lift(map.x_axis), lift(map.y_axis), lift(map.z_axis)];
+        let times = |v: Vector<T>| {
+            [0, 1, 2].map(|k| columns[0][k] * v[0] + columns[1][k] * v[1] + columns[2][k] * v[2])
+        };
+        let radius = T::from(cylinder.radius);
+        let [cos, sin] = [frame.towards, frame.across].map(|v| times(v).map(|c| c * radius));
+        let heights = [-frame.place, frame.length - frame.place];
+        let rims = [0, 1].map(|k| Ellipse {
+            center: times(lift(cylinder.ends[k])),
+            cos,
+            sin,
+            volume: determinant * (radius * radius) * heights[k],
+        });
+        let outside = (frame.gap - radius) * (frame.gap + radius);
+        Silhouette {
+            rims,
+            gap: frame.gap.to_f64(),
+            radius: cylinder.radius,
+            place: frame.place.to_f64(),
+            length: frame.length.to_f64(),
+            touch: [radius / frame.gap, outside.sqrt() / frame.gap],
+        }
+    }
+
+    /// The irradiance and the sum of the terms' magnitudes over 2 pi; every piece of which something is seen is visited.
+    fn walk(&self, mut visit: impl FnMut(Piece<T>)) -> (f64, f64) {
+        let mut sum = Sum { value: T::from(0.0), size: 0.0, first: None, last: None };
+        if self.gap <= self.radius {
+            let rim = usize::from(self.place > 0.0);
+            self.arc(&mut sum, rim, [1.0, 1.0], PI, [0, 0], &mut visit);
+        } else {
+            let angle = libm::atan2(self.touch[1].to_f64(), self.touch[0].to_f64());
+            let (far0, far1) = (self.place < 0.0, self.place > self.length);
+            let turned = |far: bool| if far { (-1.0, PI - angle) } else { (1.0, angle) };
+            self.generator(&mut sum, [0, 1], 1.0, [0, 1], &mut visit);
+            let (side, half) = turned(far1);
+            self.arc(&mut sum, 1, [side, -1.0], half, [1, 2], &mut visit);
+            self.generator(&mut sum, [1, 0], -1.0, [2, 3], &mut visit);
+            let (side, half) = turned(far0);
+            self.arc(&mut sum, 0, [side, 1.0], half, [3, 0], &mut visit);
+        }
+        if let (Some(last), Some(first)) = (sum.last, sum.first) {
+            sum.along_horizon(last, first);
+        }
+        ((sum.value / T::TAU).to_f64().abs().min(1.0), sum.size / TAU)
+    }
+
+    /// The point of a rim on the generator of this sign.
+    fn corner(&self, rim: usize, sign: f64) -> Vector<T> {
+        self.rims[rim].at([self.touch[0], T::from(sign) * self.touch[1]])
+    }
+
+    fn generator(
+        &self,
+        sum: &mut Sum<T>,
+        rims: [usize; 2],
+        sign: f64,
+        corners: [u8; 2],
+        visit: &mut impl FnMut(Piece<T>),
+    ) {
+        let [a, b] = rims.map(|rim| self.corner(rim, sign));
+        let (above_a, above_b) = (a[2].to_f64() > 0.0, b[2].to_f64() > 0.0);
+        if !above_a && !above_b {
+            return;
+        }
+        let chord = difference(b, a);
+        let nearer = if length(a) < length(b) { a } else { b };
+        let normal = cross(nearer, chord);
+        // From the corner above: the crossing is that corner and a part of the chord.
+        let drop = a[2] - b[2];
+        let crossing = |above: Vector<T>, part: T| {
+            [above[0] + chord[0] * part, above[1] + chord[1] * part, T::from(0.0)]
+        };
+        let (start, end, part) = if above_a && above_b {
+            ((a, Some(corners[0])), (b, Some(corners[1])), T::from(1.0))
+        } else if above_a {
+            let part = a[2] / drop;
+            ((a, Some(corners[0])), (crossing(a, part), None), part)
+        } else {
+            let part = b[2] / drop;
+            ((crossing(b, part), None), (b, Some(corners[1])), -part)
+        };
+        sum.join(start, end);
+        let size = dot(normal, normal).sqrt();
+        if size.to_f64() > 0.0 {
+            let angle = (part * size).atan2(dot(start.0, end.0));
+            let term = angle * normal[2] / size;
+            // Of the normal a rounding is lost, which counts where the generator is seen end-on.
+            let tilt = angle.to_f64() * (length(nearer) / size.to_f64()) * length(chord);
+            sum.add(term, term.to_f64().abs() + 0.25 * tilt);
+        }
+        visit(Piece::Generator { rims, sign, ends: [a, b] });
+    }
+
+    /// The part of a rim within `half` of t = 0, where t is counted as `signs` say.
+    fn arc(
+        &self,
+        sum: &mut Sum<T>,
+        rim: usize,
+        signs: [f64; 2],
+        half: f64,
+        corners: [u8; 2],
+        visit: &mut impl FnMut(Piece<T>),
+    ) {
+        let whole = &self.rims[rim];
+        let [side, turn] = signs.map(T::from);
+        let ellipse = Ellipse {
+            center: whole.center,
+            cos: whole.cos.map(|c| c * side),
+            sin: whole.sin.map(|c| c * turn),
+            volume: whole.volume * side * turn,
+        };
+        let (z, across) = (ellipse.center[2], [ellipse.cos[2], ellipse.sin[2]]);
+        let slope = (across[0] * across[0] + across[1] * across[1]).sqrt();
+        let rest = (slope - z) * (slope + z);
+        let cut = rest.to_f64() > 0.0;
+        if !cut && !(z.to_f64() > 0.0) {
+            return;
+        }
+        let cone = ellipse.cone();
+        if !cut && half >= PI {
+            let term = ellipse.whole(&cone);
+            sum.add(term.value, term.size);
+            visit(Piece::Arc { rim, signs, ellipse, cone, ends: None });
+            return;
+        }
+        // The angles of which the rim is above the horizon: within `reach` of `top`.
+        let (top, reach) = if cut {
+            let top = libm::atan2(across[1].to_f64(), across[0].to_f64());
+            (top, libm::atan2(rest.to_f64().sqrt(), -z.to_f64()))
+        } else {
+            (0.0, PI)
+        };
+        for shift in [-TAU, 0.0, TAU] {
+            let (low, high) = (top + shift - reach, top + shift + reach);
+            let (from, to) = if cut { (low.max(-half), high.min(half)) } else { (-half, half) };
+            if !(from < to) || (!cut && shift != 0.0) || (half >= PI && shift != 0.0) {
+                continue;
+            }
+            let end = |is_corner: bool, direction: f64, corner: u8| {
+                if is_corner {
+                    // The generators' points, whatever the signs.
+                    (self.corner(rim, direction * signs[1]), Some(corner))
+                } else {
+                    let d = T::from(direction);
+                    let (cos, sin) = (-z / slope, d * rest.sqrt() / slope);
+                    let [x, y] = across.map(|c| c / slope);
+                    let point = ellipse.at([x * cos - y * sin, y * cos + x * sin]);
+                    ([point[0], point[1], T::from(0.0)], None)
+                }
+            };
+            let (start, stop) = if half >= PI {
+                (end(false, -1.0, 0), end(false, 1.0, 0))
+            } else {
+                (end(from == -half, -1.0, corners[0]), end(to == half, 1.0, corners[1]))
+            };
+            let sweep = if half >= PI { 2.0 * reach } else { to - from };
+            sum.join(start, stop);
+            let term = ellipse.arc(&cone, start.0, stop.0, sweep);
+            sum.add(term.value, term.size);
+            visit(Piece::Arc { rim, signs, ellipse, cone, ends: Some((start.0, stop.0, sweep)) });
+        }
+    }
+}
+
+impl<T: Real> Sum<T> {
+    fn add(&mut self, term: T, size: f64) {
+        self.value = self.value + term;
+        self.size += size;
     }
 
     /// Joins a visible piece to the last one, along the horizon where they do not meet.
-    fn join(&mut self, start: End, end: End) {
+    fn join(&mut self, start: End<T>, end: End<T>) {
         match self.last {
             None => self.first = Some(start),
             Some(last) => self.along_horizon(last, start),
@@ -123,147 +324,77 @@ impl Contour<'_> {
         self.last = Some(end);
     }
 
-    fn along_horizon(&mut self, from: End, to: End) {
-        if from.1.is_none() || from.1 != to.1 {
-            let ((a, _), (b, _)) = (from, to);
-            self.add(libm::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y));
+    fn along_horizon(&mut self, (from, corner): End<T>, (to, other): End<T>) {
+        if corner.is_none() || corner != other {
+            let way = difference(to, from);
+            let sine = from[0] * way[1] - from[1] * way[0];
+            let angle = sine.atan2(from[0] * to[0] + from[1] * to[1]);
+            self.add(angle, angle.to_f64().abs());
+        }
+    }
+}
+
+/// Collects derivatives by what the contour depends on.
+struct Derivatives<'a> {
+    cylinder: &'a Cylinder,
+    map: &'a DMat3,
+    seen: Seen,
+}
+
+impl Derivatives<'_> {
+    fn add(&mut self, piece: Piece<f64>) {
+        let frame = &self.cylinder.frame;
+        let (towards, across) = (DVec3::from_array(frame.towards), DVec3::from_array(frame.across));
+        match piece {
+            Piece::Generator { rims, sign, ends } => {
+                let cos = self.cylinder.radius / frame.gap;
+                let radial = cos * towards + sign * libm::sqrt(1.0 - cos * cos) * across;
+                let [a, b] = ends.map(DVec3::from_array);
+                // From the nearer end, where less cancels.
+                let area = if norm(a) < norm(b) { a.cross(b - a) } else { b.cross(b - a) };
+                let Some(piece) = Visible::new(a, b, area) else { return };
+                let [by_a, by_b] = piece.contour_gradient();
+                self.derive(by_a, rims[0], radial);
+                self.derive(by_b, rims[1], radial);
+            }
+            Piece::Arc { rim, signs: [side, turn], ellipse, cone, ends } => {
+                let ends = ends.map(|(start, end, sweep)| {
+                    (DVec3::from_array(start), DVec3::from_array(end), sweep)
+                });
+                ellipse.derivatives(&cone, ends, |[cos, sin], by| {
+                    self.derive(by, rim, side * cos * towards + turn * sin * across);
+                });
+            }
         }
     }
 
-    /// The derivative `by` of E by a contour point map (ends[end] + radius radial): on to what the point depends on.
-    fn derive(&mut self, by: DVec3, end: usize, radial: DVec3) {
+    /// The derivative `by` of E by a contour point map (ends[rim] + radius radial): on to what the point depends on.
+    fn derive(&mut self, by: DVec3, rim: usize, radial: DVec3) {
         let cylinder = self.cylinder;
-        let point = cylinder.ends[end] + cylinder.radius * radial;
+        let point = cylinder.ends[rim] + cylinder.radius * radial;
         for (column, slot) in self.seen.by_map.iter_mut().enumerate() {
             *slot += point[column] * by;
         }
         let back = self.map.transpose() * by;
-        self.seen.by_rims[end] += back;
+        self.seen.by_rims[rim] += back;
         self.seen.by_radius += back.dot(radial);
         // A turning axis tilts the rims.
-        self.seen.by_axis -= cylinder.radius * back.dot(cylinder.axis) * radial;
+        self.seen.by_axis -= cylinder.radius * back.dot(DVec3::from_array(cylinder.frame.axis)) * radial;
     }
 
-    fn generator(&mut self, [from, to]: [usize; 2], angle: f64, corners: [u8; 2]) {
-        let radial = self.cylinder.radial(angle);
-        let [a, b] =
-            [from, to].map(|end| *self.map * (self.cylinder.ends[end] + self.cylinder.radius * radial));
-        let step = *self.map * (self.cylinder.ends[to] - self.cylinder.ends[from]);
-        // From the nearer end, where less cancels.
-        let area = if norm(a) < norm(b) { a.cross(step) } else { b.cross(step) };
-        let Some(piece) = Visible::new(a, b, area) else { return };
-        self.join(
-            (piece.ends[0], (a.z >= 0.0).then_some(corners[0])),
-            (piece.ends[1], (b.z >= 0.0).then_some(corners[1])),
-        );
-        self.add(piece.contour_term());
-        let [by_a, by_b] = piece.contour_gradient();
-        self.derive(by_a, from, radial);
-        self.derive(by_b, to, radial);
-    }
-
-    fn arc(&mut self, end: usize, [from, to]: [f64; 2], corners: [u8; 2]) {
-        let cylinder = self.cylinder;
-        let rim = Rim {
-            center: *self.map * cylinder.ends[end],
-            cos: cylinder.radius * (*self.map * cylinder.towards),
-            sin: cylinder.radius * (*self.map * cylinder.across),
-        };
-        let crossings = rim.crossings(from, to);
-        let mut start = from;
-        for stop in crossings.into_iter().flatten().chain([to]) {
-            if rim.at(0.5 * (start + stop)).z > 0.0 {
-                let corner = |place: f64| match place {
-                    place if place == from => Some(corners[0]),
-                    place if place == to => Some(corners[1]),
-                    _ => None,
-                };
-                self.join((rim.at(start), corner(start)), (rim.at(stop), corner(stop)));
-                self.panels(&rim, end, start, stop, 0);
-            }
-            start = stop;
-        }
-    }
-
-    fn panels(&mut self, rim: &Rim, end: usize, from: f64, to: f64, depth: u32) {
-        let half = 0.5 * (to - from).abs();
-        let reach = norm(rim.at(0.5 * (from + to)));
-        let size = rim.size();
-        // q moves by at most size (exp |z| - 1) over a complex step z; |q . q| > 0 while that is below 0.41 |q|.
-        let free = |z: f64| size * (libm::exp(z) - 1.0) <= 0.41 * reach;
-        // Semi-axes' sum 10, axis 5.05, 10^-16; or 3.3, 1.8, 3.3^-32 = 3e-17.
-        let rule = if free(5.05 * half) {
-            &POINTS_8[..]
-        } else if free(1.8 * half) || depth >= 24 {
-            &POINTS_16[..]
-        } else {
-            let middle = 0.5 * (from + to);
-            self.panels(rim, end, from, middle, depth + 1);
-            self.panels(rim, end, middle, to, depth + 1);
-            return;
-        };
-        let mut term = 0.0;
-        gauss_legendre::visit(rule, from, to, |angle, weight| {
-            let (sin, cos) = angle.sin_cos();
-            let q = rim.center + cos * rim.cos + sin * rim.sin;
-            let area = q.cross(cos * rim.sin - sin * rim.cos);
-            let inverse = 1.0 / q.length_squared();
-            term += weight * area.z * inverse;
-            let by = (-weight / PI * q.z * inverse * inverse) * area;
-            self.derive(by, end, cos * self.cylinder.towards + sin * self.cylinder.across);
-        });
-        self.add(term);
-    }
-
-    fn close(mut self) -> Seen {
-        if let (Some(last), Some(first)) = (self.last, self.first) {
-            self.along_horizon(last, first);
-        }
-        self.seen.irradiance = (self.sum.abs() / TAU).min(1.0);
-        let tilt = self.seen.by_axis / self.cylinder.length;
+    fn finish(mut self) -> Seen {
+        let tilt = self.seen.by_axis / self.cylinder.frame.length;
         self.seen.by_ends = [self.seen.by_rims[0] - tilt, self.seen.by_rims[1] + tilt];
         self.seen
     }
 }
 
-/// q = center + cos(angle) cos + sin(angle) sin.
-struct Rim {
-    center: DVec3,
-    cos: DVec3,
-    sin: DVec3,
+fn lift<T: Real>(v: DVec3) -> Vector<T> {
+    v.to_array().map(T::from)
 }
 
-impl Rim {
-    fn at(&self, angle: f64) -> DVec3 {
-        let (sin, cos) = angle.sin_cos();
-        self.center + cos * self.cos + sin * self.sin
-    }
-
-    fn size(&self) -> f64 {
-        libm::sqrt(self.cos.length_squared() + self.sin.length_squared())
-    }
-
-    /// The angles strictly between `from` and `to`, in order, where the rim crosses the horizon.
-    fn crossings(&self, from: f64, to: f64) -> [Option<f64>; 2] {
-        let slope = libm::hypot(self.cos.z, self.sin.z);
-        if !(self.center.z.abs() < slope) {
-            return [None; 2];
-        }
-        let top = libm::atan2(self.sin.z, self.cos.z);
-        let half = libm::acos(-self.center.z / slope);
-        let direction = if to > from { 1.0 } else { -1.0 };
-        let length = (to - from).abs();
-        let mut found = [top - half, top + half].map(|angle| {
-            let ahead = ((angle - from) * direction).rem_euclid(TAU);
-            (ahead > 0.0 && ahead < length).then_some(ahead)
-        });
-        if let [Some(a), Some(b)] = found
-            && a > b
-        {
-            found = [Some(b), Some(a)];
-        }
-        found.map(|ahead| ahead.map(|ahead| from + direction * ahead))
-    }
+fn length<T: Real>(v: Vector<T>) -> f64 {
+    norm(DVec3::from_array(v.map(T::to_f64)))
 }
 
 #[cfg(test)]

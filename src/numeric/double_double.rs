@@ -33,6 +33,9 @@ pub trait Real:
 
     /// The angle of the point (`x`, self), in -pi..=pi; 0 at the origin. Off by at most two roundings.
     fn atan2(self, x: Self) -> Self;
+
+    /// The inverse hyperbolic sine of |self| <= 1e15, off by at most sixteen roundings.
+    fn asinh(self) -> Self;
 }
 
 impl Real for f64 {
@@ -49,6 +52,10 @@ impl Real for f64 {
 
     fn atan2(self, x: f64) -> f64 {
         f64::atan2(self, x)
+    }
+
+    fn asinh(self) -> f64 {
+        libm::asinh(self)
     }
 }
 
@@ -69,6 +76,18 @@ impl DoubleDouble {
     pub fn product(a: f64, b: f64) -> Self {
         let high = a * b;
         DoubleDouble { high, low: a.mul_add(b, -high) }
+    }
+
+    /// The exponential of |x| <= 40.
+    fn exp(x: f64) -> Self {
+        // 2^-10 of it by the series, whose first term left out is 2^-105 (0.04)^14/14! and less; then ten squarings.
+        let part = DoubleDouble::from(x / 1024.0);
+        let mut value =
+            FACTORIALS.iter().rev().fold(DoubleDouble::from(0.0), |sum, term| sum * part + *term);
+        for _ in 0..10 {
+            value = value * value;
+        }
+        value
     }
 
     fn renormalised(high: f64, low: f64) -> Self {
@@ -102,6 +121,29 @@ impl DoubleDouble {
         ARC_TANGENTS[step as usize] + rest.atan_series()
     }
 }
+
+/// (-1)^n (2n)!/(4^n n!^2 (2n + 1)), the coefficients of asinh x = x - x^3/6 + ...
+static ASINH_SERIES: LazyLock<[DoubleDouble; 18]> = LazyLock::new(|| {
+    let mut ratio = DoubleDouble::from(1.0);
+    core::array::from_fn(|n| {
+        let n = n as f64;
+        if n > 0.0 {
+            ratio = -ratio * DoubleDouble::from(2.0 * n - 1.0) / DoubleDouble::from(2.0 * n);
+        }
+        ratio / DoubleDouble::from(2.0 * n + 1.0)
+    })
+});
+
+/// 1/n! from n = 0.
+static FACTORIALS: LazyLock<[DoubleDouble; 14]> = LazyLock::new(|| {
+    let mut inverse = DoubleDouble::from(1.0);
+    core::array::from_fn(|n| {
+        if n > 0 {
+            inverse = inverse / DoubleDouble::from(n as f64);
+        }
+        inverse
+    })
+});
 
 const PI: DoubleDouble = DoubleDouble::new(core::f64::consts::PI, 1.224_646_799_147_353_2e-16);
 
@@ -149,6 +191,23 @@ impl Real for DoubleDouble {
             if up.high > right.high { half - (right / up).atan_unit() } else { (up / right).atan_unit() };
         let upper = if x.high < 0.0 { PI - quadrant } else { quadrant };
         if self.high < 0.0 { -upper } else { upper }
+    }
+
+    fn asinh(self) -> Self {
+        let one = DoubleDouble::from(1.0);
+        if self.high.abs() < 0.125 {
+            // The first power left out is 2^-108 of the first.
+            let square = self * self;
+            let series = ASINH_SERIES.iter().rev();
+            return self * series.fold(DoubleDouble::from(0.0), |sum, term| sum * square + *term);
+        }
+        if self.high < 0.0 {
+            return -(-self).asinh();
+        }
+        // The logarithm of an argument above 1.13, by one step of Newton's that squares f64's error.
+        let argument = self + (self * self + one).sqrt();
+        let guess = libm::log(argument.high);
+        DoubleDouble::from(guess) + (argument * Self::exp(-guess) - one)
     }
 }
 
@@ -251,6 +310,12 @@ mod tests {
             let (s, t) = (DoubleDouble::from(x), DoubleDouble::from(y));
             let sum = (s + t).atan2(one - s * t);
             prop_assert!(roundings(s.atan2(one) + t.atan2(one), sum) <= 8.0);
+            // asinh x + asinh y = asinh(x sqrt(1 + y^2) + y sqrt(1 + x^2)), over all ways to compute one.
+            let (a, b) = (DoubleDouble::from(x), DoubleDouble::from(30.0 * y));
+            let whole = (a * (b * b + one).sqrt() + b * (a * a + one).sqrt()).asinh();
+            // Ten squarings multiply an error of the exponential by 2^10, which the logarithm keeps.
+            prop_assert!(((a.asinh() + b.asinh() - whole).high / whole.high).abs() <= 1e-26);
+            prop_assert!((a.asinh().high - x.asinh()).abs() <= 4.0 * f64::EPSILON * x);
             prop_assert!((s.atan2(one).high - x.atan()).abs() <= f64::EPSILON);
             prop_assert!(((-s).atan2(-one).high - (-x).atan2(-1.0)).abs() <= 4.0 * f64::EPSILON);
         }

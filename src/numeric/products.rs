@@ -72,6 +72,28 @@ pub fn dot(a: DVec3, v: &Pairs) -> f64 {
     exact::sum(&terms)
 }
 
+/// a - b, exactly.
+pub fn difference(a: DVec3, b: DVec3) -> Pairs {
+    [two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)]
+}
+
+/// a . b for exact vectors: off by 2^-53 of itself and 2^-104 of its largest term, and only by the former where one of
+/// the two has no second parts.
+pub fn dot_exact(a: &Pairs, b: &Pairs) -> f64 {
+    let mut terms = [0.0; 18];
+    let mut used = 0;
+    for ((high, low), (factor, small)) in a.iter().zip(b) {
+        for (p, q) in [(high, factor), (high, small), (low, factor)] {
+            if *p != 0.0 && *q != 0.0 {
+                let product = p * q;
+                terms[used..used + 2].copy_from_slice(&[product, p.mul_add(*q, -product)]);
+                used += 2;
+            }
+        }
+    }
+    exact::sum(&terms[..used])
+}
+
 /// The determinant of a matrix of f32 values, rounded once.
 pub fn determinant(m: &DMat3) -> f64 {
     dot(m.x_axis, &cross(m.y_axis, m.z_axis))
@@ -90,6 +112,37 @@ pub fn transform_sum(m: &DMat3, points: &[DVec3]) -> DVec3 {
         }
         exact::sum(&terms[..3 * points.len()])
     }))
+}
+
+/// The relative error of a component that [`transform_pairs`] leaves.
+pub const PAIR_ERROR: f64 = 1.0 / (1u128 << 80) as f64;
+
+/// The same as pairs: every component off by [`PAIR_ERROR`] of itself, exactly 0 where it is 0.
+pub fn transform_pairs(m: &DMat3, points: &[DVec3]) -> Pairs {
+    [0, 1, 2].map(|row| {
+        let mut terms = [0.0; 16];
+        for (slots, point) in terms.chunks_exact_mut(3).zip(points) {
+            slots.copy_from_slice(&[
+                m.x_axis[row] * point.x,
+                m.y_axis[row] * point.y,
+                m.z_axis[row] * point.z,
+            ]);
+        }
+        let used = 3 * points.len();
+        // The errors' own sum is off by 2^-101 of the terms at most, which cancel seldom.
+        let (mut sum, mut error, mut size) = (0.0, 0.0, 0.0);
+        for &term in &terms[..used] {
+            let (next, lost) = two_sum(sum, term);
+            (sum, error, size) = (next, error + lost, size + term.abs());
+        }
+        let high = sum + error;
+        if high.abs() > size / (1u64 << 20) as f64 {
+            return (high, error - (high - sum));
+        }
+        let high = exact::sum(&terms[..used]);
+        terms[used] = -high;
+        (high, exact::sum(&terms[..=used]))
+    })
 }
 
 /// |v|, whatever its scale: no square leaves the range of f64.
@@ -138,6 +191,11 @@ mod tests {
         let got = cofactors_times(&cofactors(&matrix), &cross(vector(a), vector(b)));
         assert_eq!(got, vector(expected));
         assert_eq!(transform_sum(&matrix, &[vector(a)]), vector(ma));
+        let pairs = transform_pairs(&matrix, &[vector(a), vector(b)]);
+        let mb = map(b);
+        for (row, (high, low)) in pairs.into_iter().enumerate() {
+            assert_eq!(high as i128 + low as i128, ma[row] + mb[row]);
+        }
     }
 
     #[test]

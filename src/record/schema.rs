@@ -77,9 +77,9 @@ pub struct Family {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Output {
     pub name: String,
-    /// How its error is measured: `magnitude` and `scalar` (relative), `unit_vector` (radians), `irradiance` and
-    /// `vector_irradiance` (absolute, the full hemisphere being 1), `property` (the largest residual of what must hold),
-    /// `builtin` (a share of the permitted error).
+    /// How its error is measured: `magnitude`, `scalar`, `solid_angle` and `vector` (relative), `unit_vector` (radians),
+    /// `irradiance` and `vector_irradiance` (absolute, the full hemisphere being 1), `coordinate` (absolute), `property`
+    /// (the largest residual of what must hold), `builtin` (a share of the permitted error).
     pub quantity: String,
     pub tolerance: f64,
     pub headline: bool,

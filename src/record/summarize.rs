@@ -130,6 +130,7 @@ fn quantity(quantity: Quantity) -> &'static str {
         Quantity::Scalar => "scalar",
         Quantity::Irradiance => "irradiance",
         Quantity::VectorIrradiance => "vector_irradiance",
+        Quantity::Coordinate => "coordinate",
         Quantity::SolidAngle => "solid_angle",
         Quantity::Vector { .. } => "vector",
         Quantity::UnitVector { .. } => "unit_vector",

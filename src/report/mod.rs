@@ -4,9 +4,11 @@ mod builtin;
 mod compare;
 mod numbers;
 mod pick;
+mod probe;
 mod table;
 mod timing;
 
 pub use compare::{Form, compare, github};
 pub use pick::pick;
+pub use probe::probes;
 pub use table::{devices, run};

@@ -112,7 +112,7 @@ fn scenario_table(family: &Family, scenario: usize, colour: bool) -> String {
         table.add_row(row);
     }
     right_align(&mut table);
-    lines(&table) + &timing::rankings(scenario)
+    lines(&table) + &timing::ranking(scenario)
 }
 
 /// Verdicts with a column of their own in families where they occur: what no error's size tells.

@@ -140,33 +140,38 @@ fn of_operations(variant: &Variant, timing: &Timing) -> String {
     format!("{sign}{}", percent(share.arithmetic))
 }
 
-/// What is to be known of each ranking of a scenario, a line each.
-pub(super) fn rankings(scenario: &Scenario) -> String {
-    let mut text = String::new();
-    for ranking in &scenario.rankings {
-        let Ranking { setting, reference, control, noise, stopped, rounds, discarded, .. } = ranking;
-        let name = match (setting.regime, setting.inputs) {
-            (Regime::Streaming, _) => "streaming",
-            (Regime::Arithmetic, Coherence::Coherent) => "coherent",
-            (Regime::Arithmetic, Coherence::Divergent) => "divergent",
-        };
-        let stopped = match stopped {
-            Stop::Narrow => "intervals narrow",
-            Stop::Time => "time up",
-            Stop::Rounds => "rounds up",
-        };
-        _ = writeln!(
-            text,
-            "{name}: ratios to {reference}; against itself {:.3} ({:.3}..{:.3}), so up to {} is noise; \
-             {rounds} rounds ({stopped}{})",
-            control.median,
-            control.low,
-            control.high,
-            percent(*noise),
-            if *discarded > 0 { format!(", {discarded} throttled ones discarded") } else { String::new() }
-        );
-    }
-    text
+/// What is to be known of the ranking that an audit's table shows: one line.
+pub(super) fn ranking(scenario: &Scenario) -> String {
+    scenario.ranking(Setting::DIVERGENT).or(scenario.rankings.last()).map_or_else(String::new, ranking_line)
+}
+
+/// The same of each ranking.
+fn rankings(scenario: &Scenario) -> String {
+    scenario.rankings.iter().map(ranking_line).collect()
+}
+
+fn ranking_line(ranking: &Ranking) -> String {
+    let Ranking { setting, reference, control, noise, stopped, rounds, discarded, .. } = ranking;
+    let name = match (setting.regime, setting.inputs) {
+        (Regime::Streaming, _) => "streaming",
+        (Regime::Arithmetic, Coherence::Coherent) => "coherent",
+        (Regime::Arithmetic, Coherence::Divergent) => "divergent",
+    };
+    let stopped = match stopped {
+        Stop::Narrow => "intervals narrow",
+        Stop::Time => "time up",
+        Stop::Rounds => "rounds up",
+    };
+    let discarded =
+        if *discarded > 0 { format!(", {discarded} throttled ones discarded") } else { String::new() };
+    format!(
+        "{name}: ratios to {reference}; against itself {:.3} ({:.3}..{:.3}), so up to {} is noise; {rounds} rounds \
+         ({stopped}{discarded})\n",
+        control.median,
+        control.low,
+        control.high,
+        percent(*noise),
+    )
 }
 
 /// How to read the times of a run; empty if it has none.

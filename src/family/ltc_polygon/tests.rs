@@ -47,7 +47,7 @@ fn every_truth_is_certified_and_a_share() {
 #[test]
 fn is_the_integral_over_the_light() {
     each("ggx", 60, |row, truth| {
-        let minv = glam::DMat3::from_cols(vector(row, 0), vector(row, 3), vector(row, 6));
+        let minv = matrix(row);
         let [a, b, c, d] = lights(row).map(|p| minv * p);
         // Bilinear, so the corners are met although they are planar only up to rounding.
         const CELLS: u32 = 400;
@@ -116,7 +116,7 @@ fn exact_zeros_and_undefined_values() {
     let mut zeros = 0;
     each("edge", 20_000, |row, truth| {
         let value = truth.output(0)[0];
-        let above = transformed_f64(row).iter().any(|corner| corner[2] > 0.0);
+        let above = transformed(row).iter().any(|corner| corner[2].0 > 0.0);
         assert!(above || value == 0.0, "{row:?}");
         if flat(row) {
             assert_eq!(value, 0.0, "{row:?}");

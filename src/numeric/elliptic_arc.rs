@@ -1,0 +1,275 @@
+//! The contour integral of (q x dq).z/|q|^2 along an arc of an ellipse, in closed form and in either precision.
+//!
+//! Only directions count, so the ellipse q = C + cos t X + sin t Y is taken in the principal frame (W1, W2, W3) of its cone
+//! (see [`super::clipped_ellipse`]), where its direction is p(u) = (sqrt(e1) cos u, sqrt(e3) sin u, sqrt(l)) and the integral
+//! is elementary for any pair of ends. Frame and eigenvalues come from the ellipse itself, so that a far or small one
+//! loses nothing: with N = X x Y, l is the positive root of
+//!
+//! ```text
+//! l^3 + (|X|^2 + |Y|^2 - |C|^2) l^2 + (|N|^2 - |C x X|^2 - |C x Y|^2) l - (N.C)^2
+//! ```
+//!
+//! and W3 has the direction of l^2 C + l (X x (C x X) + Y x (C x Y)) + N (N.C). Source: ours.
+
+use core::f64::consts::{FRAC_1_PI, TAU};
+
+use glam::DVec3;
+
+use super::cubic::positive_root;
+use super::double_double::Real;
+use super::gauss_legendre::{POINTS_8, POINTS_16, visit};
+
+/// Three components.
+pub type Vector<T> = [T; 3];
+
+/// An ellipse C + cos t X + sin t Y.
+#[derive(Clone, Copy, Debug)]
+pub struct Ellipse<T> {
+    pub center: Vector<T>,
+    pub cos: Vector<T>,
+    pub sin: Vector<T>,
+    /// The determinant [C, X, Y], better known than from the three.
+    pub volume: T,
+}
+
+/// Its cone.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone<T> {
+    axes: [Vector<T>; 3],
+    e1: T,
+    e3: T,
+    l: T,
+    /// The apex lies in the ellipse's plane, as far as T can tell.
+    flat: bool,
+}
+
+/// An integral, and what its error is a few roundings of.
+#[derive(Clone, Copy, Debug)]
+pub struct Term<T> {
+    pub value: T,
+    pub size: f64,
+}
+
+/// An arc's ends in the principal frame: half its sum and half its difference, of u from low to high.
+struct Span<T> {
+    low: [T; 2],
+    high: [T; 2],
+    middle: [T; 2],
+    half: [T; 2],
+}
+
+impl<T: Real> Ellipse<T> {
+    /// The point with this cosine and sine of t.
+    pub fn at(&self, [cos, sin]: [T; 2]) -> Vector<T> {
+        [0, 1, 2].map(|k| self.center[k] + (self.cos[k] * cos + self.sin[k] * sin))
+    }
+
+    pub fn cone(&self) -> Cone<T> {
+        let (c, x, y) = (self.center, self.cos, self.sin);
+        let (cx, cy, n) = (cross(c, x), cross(c, y), cross(x, y));
+        let c2 = dot(x, x) + dot(y, y) - dot(c, c);
+        let c1 = dot(n, n) - dot(cx, cx) - dot(cy, cy);
+        let c0 = self.volume * self.volume;
+        let mut l = T::from(positive_root(c2.to_f64(), c1.to_f64(), c0.to_f64()));
+        if T::ROUNDOFF < f64::ROUNDOFF && l.to_f64() > 0.0 {
+            // Each squares the error of f64's root.
+            for _ in 0..3 {
+                let value = ((l + c2) * l + c1) * l - c0;
+                let slope = (l * T::from(3.0) + c2 * T::from(2.0)) * l + c1;
+                l = l - value / slope;
+            }
+        }
+        let (xx, yy) = (cross(x, cx), cross(y, cy));
+        let w3 = normalized([0, 1, 2].map(|k| l * l * c[k] + l * (xx[k] + yy[k]) + n[k] * self.volume));
+
+        // Any basis across, turned to the axes of what is left of X X^T + Y Y^T - C C^T.
+        let sizes = w3.map(|v| v.to_f64().abs());
+        let least = (0..3).fold(0, |least, k| if sizes[k] < sizes[least] { k } else { least });
+        let b1 = normalized([0, 1, 2].map(|k| T::from(f64::from(k == least)) - w3[k] * w3[least]));
+        let b2 = cross(w3, b1);
+        let flat = |v: Vector<T>| [dot(b1, v), dot(b2, v)];
+        let ([c_1, c_2], [x_1, x_2], [y_1, y_2]) = (flat(c), flat(x), flat(y));
+        let half = T::from(0.5);
+        let s11 = x_1 * x_1 + y_1 * y_1 - c_1 * c_1;
+        let s22 = x_2 * x_2 + y_2 * y_2 - c_2 * c_2;
+        let s12 = x_1 * x_2 + y_1 * y_2 - c_1 * c_2;
+        let tau = half * (s11 - s22);
+        let h = (tau * tau + s12 * s12).sqrt();
+        let e1 = half * (s11 + s22) + h;
+        let (one, zero) = (T::from(1.0), T::from(0.0));
+        let (cos, sin) = if !(h.to_f64() > 0.0) {
+            (one, zero)
+        } else if tau.to_f64() >= 0.0 {
+            let cos = (half * (one + tau / h)).sqrt();
+            (cos, half * s12 / (h * cos))
+        } else {
+            let sin = (half * (one - tau / h)).sqrt();
+            (half * s12 / (h * sin), sin)
+        };
+        let w1 = [0, 1, 2].map(|k| cos * b1[k] + sin * b2[k]);
+        let w2 = [0, 1, 2].map(|k| cos * b2[k] - sin * b1[k]);
+        let degenerate = !(l.to_f64() > 0.0 && e1.to_f64() > 0.0);
+        let e3 = if degenerate { zero } else { c0 / (l * e1) };
+        let e3 = if e3.to_f64() > e1.to_f64() { e1 } else { e3 };
+        // Below this, roundings turn u about.
+        let flat = degenerate || e3.to_f64() <= T::ROUNDOFF * e1.to_f64() || l.to_f64() <= T::ROUNDOFF * e1.to_f64();
+        Cone { axes: [w1, w2, w3], e1, e3, l, flat }
+    }
+
+    /// The integral from `start` to `end`, two points of the ellipse with t growing by `sweep` < 2 pi.
+    pub fn arc(&self, cone: &Cone<T>, start: Vector<T>, end: Vector<T>, sweep: f64) -> Term<T> {
+        if cone.flat {
+            return in_plane(start, end);
+        }
+        let Span { low, high, middle: [cos0, sin0], half: [cos_d, sin_d] } = self.span(cone, start, end, sweep);
+        let &Cone { axes, e1, e3, l, .. } = cone;
+        let (one, two) = (T::from(1.0), T::from(2.0));
+        let (a, b, c) = (e1.sqrt(), e3.sqrt(), l.sqrt());
+        let (big, small, k) = (l + e1, l + e3, e1 - e3);
+        let q = |[cos, sin]: [T; 2]| big * cos * cos + small * sin * sin;
+        let d = two * cos0 * sin_d / (q(low) * q(high)).sqrt();
+        let z = d * (k * big).sqrt();
+        // f/g where both vanish together.
+        let ratio = |f: T, g: T| if g.to_f64().abs() > 1e-150 { f / g } else { one };
+        let ix = -(b * c * d * ratio(z.asinh(), z));
+        let g = two * sin0 * sin_d / small;
+        let y = g * (k * small).sqrt();
+        let x = one + k / small * (cos0 * cos0 - sin_d * sin_d);
+        let angle = if y.to_f64().abs() > 1e-150 { y.atan2(x) / y } else { one / x };
+        let iy = -(a * c * g * angle);
+        let iz = a * b / (big * small).sqrt() * self.turn(cone, &low, &high, &[cos_d, sin_d]);
+        let terms = [axes[0][2] * ix, axes[1][2] * iy, axes[2][2] * iz];
+        let size = terms.iter().map(|term| term.to_f64().abs()).sum::<f64>();
+        let value = terms[0] + terms[1] + terms[2];
+        // The frame is turned by a rounding, which moves u by that over the cone's smaller half angle.
+        let wide = (e1 / (e1 + l)).to_f64().sqrt() * (e1 / e3).to_f64().sqrt();
+        Term { value: if self.volume.to_f64() < 0.0 { -value } else { value }, size: size + 0.25 * wide }
+    }
+
+    /// The integral once around, with t growing.
+    pub fn whole(&self, cone: &Cone<T>) -> Term<T> {
+        if cone.flat {
+            // Inside or outside of the ellipse nothing but the plane decides; no caller asks.
+            return Term { value: T::from(0.0), size: 1.0 };
+        }
+        let &Cone { axes, e1, e3, l, .. } = cone;
+        let value = axes[2][2] * (e1 * e3 / ((l + e1) * (l + e3))).sqrt() * T::TAU;
+        let size = value.to_f64().abs();
+        Term { value: if self.volume.to_f64() < 0.0 { -value } else { value }, size }
+    }
+
+    /// The difference of tan w = sqrt((l + e3)/(l + e1)) tan u over an arc, in 0..2 pi.
+    fn turn(&self, cone: &Cone<T>, low: &[T; 2], high: &[T; 2], [cos_d, sin_d]: &[T; 2]) -> T {
+        let (big, small) = (cone.l + cone.e1, cone.l + cone.e3);
+        let turn = ((big * small).sqrt() * T::from(2.0) * *sin_d * *cos_d)
+            .atan2(big * low[0] * high[0] + small * low[1] * high[1]);
+        if cos_d.to_f64() < 0.0 { turn + T::TAU } else { turn }
+    }
+
+    /// The ends of an arc, ordered by u: its points turn with t where `volume` > 0.
+    fn span(&self, cone: &Cone<T>, start: Vector<T>, end: Vector<T>, sweep: f64) -> Span<T> {
+        let roots = [cone.e1.sqrt(), cone.e3.sqrt()];
+        let place = |q: Vector<T>| {
+            // The centre's part is the same for both ends; what differs is small and keeps its digits.
+            let off = difference(q, self.center);
+            let [x, y] = [0, 1].map(|k| (dot(cone.axes[k], off) + dot(cone.axes[k], self.center)) / roots[k]);
+            let size = (x * x + y * y).sqrt();
+            [x / size, y / size]
+        };
+        let (start, end) = (place(start), place(end));
+        let (low, high) = if self.volume.to_f64() < 0.0 { (end, start) } else { (start, end) };
+        let sum = [low[0] + high[0], low[1] + high[1]];
+        let step = [high[0] - low[0], high[1] - low[1]];
+        let length = |v: [T; 2]| (v[0] * v[0] + v[1] * v[1]).sqrt();
+        let (of_sum, of_step) = (length(sum), length(step));
+        let half = T::from(0.5);
+        let turned = (low[0] * high[1] - low[1] * high[0]).to_f64();
+        // The sign is lost where the ends meet, after nothing or once around.
+        let beyond = if of_step.to_f64() < 1e-3 { sweep > 0.5 * TAU } else { turned < 0.0 };
+        let sign = T::from(if beyond { -1.0 } else { 1.0 });
+        let middle = if of_sum.to_f64() > of_step.to_f64() {
+            [sign * sum[0] / of_sum, sign * sum[1] / of_sum]
+        } else {
+            [step[1] / of_step, -step[0] / of_step]
+        };
+        Span { low, high, middle, half: [sign * half * of_sum, half * of_step] }
+    }
+}
+
+impl Ellipse<f64> {
+    /// Visits points of an arc, or of the whole if `ends` is `None`, as (cos t, sin t) with the derivative of the
+    /// irradiance by the point, of which the sum is the integral along the arc to a few percent.
+    ///
+    /// Moving a contour changes the irradiance by -(1/pi) q.z/|q|^4 (q x dq); in w it is smooth.
+    pub fn derivatives(
+        &self,
+        cone: &Cone<f64>,
+        ends: Option<(DVec3, DVec3, f64)>,
+        mut point: impl FnMut([f64; 2], DVec3),
+    ) {
+        if cone.flat {
+            return;
+        }
+        let &Cone { axes, e1, e3, l, .. } = cone;
+        let (big, small) = (libm::sqrt(l + e1), libm::sqrt(l + e3));
+        let (from, turn) = match ends {
+            None => (0.0, TAU),
+            Some((start, end, sweep)) => {
+                let span = self.span(cone, start.to_array(), end.to_array(), sweep);
+                let turn = self.turn(cone, &span.low, &span.high, &span.half);
+                (libm::atan2(small * span.low[1], big * span.low[0]), turn)
+            }
+        };
+        let [w1, w2, w3] = axes.map(DVec3::from_array);
+        let [c, x, y] = [self.center, self.cos, self.sin].map(DVec3::from_array);
+        let (a, b, root_l) = (libm::sqrt(e1), libm::sqrt(e3), libm::sqrt(l));
+        let n = x.cross(y);
+        let (by_x, by_y) = (y.cross(n) / n.length_squared(), n.cross(x) / n.length_squared());
+        let sign = if self.volume < 0.0 { FRAC_1_PI } else { -FRAC_1_PI };
+        let rule = if turn < 2.0 { &POINTS_8[..] } else { &POINTS_16[..] };
+        visit(rule, from, from + turn, |w, weight| {
+            let (sin_w, cos_w) = w.sin_cos();
+            let (cos, sin) = (cos_w / big, sin_w / small);
+            let size = libm::hypot(cos, sin);
+            let (cos, sin) = (cos / size, sin / size);
+            let p = a * cos * w1 + b * sin * w2 + root_l * w3;
+            let turning = a * b * w3 - root_l * (b * cos * w1 + a * sin * w2);
+            let scale = self.volume / n.dot(p);
+            let off = scale * p - c;
+            let by = sign * weight / (big * small) * (p.z / (p.length_squared() * scale)) * turning;
+            point([off.dot(by_x), off.dot(by_y)], by);
+        });
+    }
+}
+
+/// An arc seen edge-on, from outside: the angle between its ends in its plane.
+fn in_plane<T: Real>(start: Vector<T>, end: Vector<T>) -> Term<T> {
+    let n = cross(start, difference(end, start));
+    let size = dot(n, n).sqrt();
+    if !(size.to_f64() > 0.0) {
+        return Term { value: T::from(0.0), size: 0.0 };
+    }
+    let value = size.atan2(dot(start, end)) * n[2] / size;
+    Term { value, size: value.to_f64().abs() }
+}
+
+pub fn dot<T: Real>(a: Vector<T>, b: Vector<T>) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub fn cross<T: Real>(a: Vector<T>, b: Vector<T>) -> Vector<T> {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+pub fn difference<T: Real>(a: Vector<T>, b: Vector<T>) -> Vector<T> {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn normalized<T: Real>(v: Vector<T>) -> Vector<T> {
+    // By a power of two first, so that no square leaves the range.
+    let largest = v.iter().fold(0.0f64, |largest, c| largest.max(c.to_f64().abs()));
+    let scale = T::from(libm::ldexp(1.0, -libm::frexp(largest).1));
+    let v = v.map(|c| c * scale);
+    let length = dot(v, v).sqrt();
+    v.map(|c| c / length)
+}
