@@ -9,7 +9,8 @@
 //     2 pi E = F turn + dphi - 2 v sqrt(szz) (W1^2 atanh(x, z)/z + W2^2 atan(y, c)/y)      v = |[C, V1, V2]| = sqrt(e1 e3 l)
 //
 //     F     the whole cone's irradiance, signed: v W3/sqrt(l A B)
-//     turn  = angle(-2 sqrt(l A B szz) W3, l ((A + B - l) W3^2 - szz) - e1 e3 (1 - W3^2)), in 0..2 pi
+//     turn  = angle(-2 sqrt(l A B szz) W3, t - l szz) in 0..2 pi           t = l (A + B - l) W3^2 - e1 e3 (1 - W3^2)
+//     dphi  = angle(2 v sqrt(szz), t + l szz), between the crossings' azimuths
 //     z, x  = 2 sqrt(szz A e1 k W1^2), A m - e3 k W2^2 + k szz             x^2 - z^2 = the square of turn's arguments
 //     y, c  = 2 sqrt(szz B e3 k W2^2), B m + e1 k W1^2 - k szz
 //

@@ -19,8 +19,12 @@ defines = { HORIZON = 2 }
 // Domain: any semi-axes of ratios up to about 1e6, one of them 0 included; from inside the answer is 1.
 // Source: as above.
 // Bound: the disk's, and 2^-22 over the height off the surface in radii.
-// Measured (lavapipe, Mesa 22.3, 1 M a scenario): direct_exact fails on 0.10 % of flat and on nothing else; the table on 50 % of
-// ggx and 98 % of near_surface, the rational fit on 65 % and 100 %.
+// Measured: llvmpipe (Mesa 22.3.6 (LLVM 15.0.6)), 1,000,000 a scenario, seed 1.
+// Failed and the worst error, whoever is to blame; n: failed, and so many of them not finite.
+//                          ggx         flat          far  near_surface     edge
+//   direct_exact        0 2e-5  0.061% 2e-3       0 1e-7        0 9e-5    0 1e0
+//   direct_lut        46% 5e-2     37% 8e-2  0.022% 6e-3      98% 5e-2  14% 1e0
+//   direct_rational   73% 2e-1     51% 2e-1   0.44% 2e-2     100% 2e-1  58% 1e0
 
 #include "common/disk_direct.glsl"
 #include "common/ellipsoid_disk.glsl"

@@ -33,9 +33,13 @@ defines = { ATAN_OF_INVERSE = 1 }
 // Source: Heitz & Hill 2017.
 // Bound: the differences lose l/(l2 - l1) of their digits, as does d: a relative error of about 2^-24 times distance
 // over length, plus the same for the normal p1 x p2.
-// Measured: 300K a scenario, lavapipe (Mesa 22.3), inaccurate: tubes over a floor 3.7 %, far 10 %, passing near
-// 2.6 %, cut by the horizon 2.3 %, long 11 %; edge cases 52 %, nearly all of them NaN. Median relative error of a half-
-// length 0.25 at distance 10 / 100 / 1000: 1e-5 (the driver's atan) / 1.4e-5 / 8e-5.
+// Measured: llvmpipe (Mesa 22.3.6 (LLVM 15.0.6)), 1,000,000 a scenario, seed 1.
+// Failed and the worst error, whoever is to blame; n: failed, and so many of them not finite.
+//                            ggx      far   grazing      near   horizon      long      edge
+//   heitz2017           3.6% 5e4  10% 3e6  2.2% 3e6  2.6% 2e5  2.3% 6e5   11% 1e6  52% n46%
+//   heitz2017_precise   3.6% 3e4  10% 3e6  2.2% 3e6  2.6% 2e5  2.3% 6e5   11% 1e6  52% n46%
+//   no_width_factor      96% 1e5  48% 2e7   51% 4e6   49% 1e6   99% 7e5   54% 5e7  44% n16%
+//   atan_of_inverse      96% 8e6  97% 3e7  100% 2e8   99% 2e8  100% 3e6  100% 6e8  72% n46%
 
 float fpo(float d, float l)
 {

@@ -22,11 +22,12 @@ defines = { EDGE = "edge_stable" }
 //
 // Domain: any contour; otherwise as of `cases`.
 // Bound: as of `cases`; a cut by interpolation is off by 2^-24 of the first corner, however close to the point it is.
-// Measured: failed, and worst error; lavapipe (Mesa 22.3), 1 M a scenario, seed 1.
-//                                    ggx       far  near_plane      needle  inside_out       edge
-//   streaming_acos            1.94% 3069  0 5.7e-5   28.1% inf  0.10% 0.03  33.2% 3096  16.6% inf
-//   streaming_rational_1e7    0.29% 0.50  0 3.0e-7   23.6% inf  0.02% 0.03  5.56% 0.47  16.0% inf
-//   streaming_stable            0 1.1e-5  0 1.1e-7   0.27% inf    0 1.8e-5    0 2.7e-5  15.4% inf
+// Measured: llvmpipe (Mesa 22.3.6 (LLVM 15.0.6)), 1,000,000 a scenario, seed 1.
+// Failed and the worst error, whoever is to blame; n: failed, and so many of them not finite.
+//                                   ggx    grazing       facing     far  near_plane       needle      horizon  inside_out      edge
+//   streaming_acos             1.9% 3e3    12% 3e3    1.9% 3e-3  0 6e-5     28% n9x    0.1% 3e-2    0.67% 3e3     33% 3e3  17% n15%
+//   streaming_rational_1e7   0.29% 5e-1  4.3% 5e-1  0.056% 3e-3  0 3e-7     24% n9x  0.024% 3e-2  0.099% 5e-1   5.6% 5e-1  16% n15%
+//   streaming_stable             0 1e-5     0 1e-5       0 7e-7  0 1e-7   0.27% n9x       0 2e-5       0 5e-6      0 3e-5  15% n15%
 
 #include "common/edge_any.glsl"
 

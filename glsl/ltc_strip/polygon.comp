@@ -20,8 +20,11 @@ defines = { SCALED = 1 }
 // Domain: any strip. What the four edges' sum leaves of a thin, far one is 2^-24 of its terms, absolutely.
 // Source: Heitz et al. 2016 for the edges; the closing along the horizon ours.
 // Bound: 1e-6 absolutely, more where the point nearly touches an edge.
-// Measured: 300K a scenario, lavapipe (Mesa 22.3), off by more than 1e-4: none at any alpha; 2.9 % of the edge
-// cases, which are of extreme scale; polygon_scaled 1.3 % of those.
+// Measured: llvmpipe (Mesa 22.3.6 (LLVM 15.0.6)), 1,000,000 a scenario, seed 1.
+// Failed and the worst error, whoever is to blame; n: failed, and so many of them not finite.
+//                    ggx_alpha_02  ggx_alpha_01  ggx_alpha_05      edge
+//   polygon                0 3e-6        0 1e-6        0 1e-6  2.9% 1e0
+//   polygon_scaled         0 3e-6        0 1e-6        0 1e-6  1.3% 1e0
 
 #include "common/cosine_contour.glsl"
 #ifdef SCALED
