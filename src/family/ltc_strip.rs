@@ -387,8 +387,7 @@ mod tests {
                 let cofactors = products::cofactors(&minv);
                 let lines = across(&mapped, &areas(&cofactors, p1, p2, side));
                 let volume = products::dot(p2, &products::cross(side, p1));
-                let value =
-                    FRAC_1_PI * (products::dot(minv.x_axis, &cofactors[0]) * volume).abs() * lines;
+                let value = FRAC_1_PI * (products::dot(minv.x_axis, &cofactors[0]) * volume).abs() * lines;
                 // What the family promises.
                 assert!((value / truth.values()[0] - 1.0).abs() < 3e-11, "{row:?}: {value} for {truth:?}");
                 compared += 1;
