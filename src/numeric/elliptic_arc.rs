@@ -282,3 +282,74 @@ fn normalized<T: Real>(v: Vector<T>) -> Vector<T> {
     let length = dot(v, v).sqrt();
     v.map(|c| c / length)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::double_double::DoubleDouble;
+    use crate::numeric::products::norm;
+    use crate::sample::Stream;
+
+    /// The integrand itself by Gauss's rule on 64 panels: no cone, no antiderivative.
+    fn quadrature(ellipse: &Ellipse<f64>, from: f64, to: f64) -> f64 {
+        let [c, x, y] = [ellipse.center, ellipse.cos, ellipse.sin].map(DVec3::from_array);
+        let mut sum = 0.0;
+        for panel in 0..64 {
+            let at = |k: i32| from + (to - from) * f64::from(k) / 64.0;
+            visit(&POINTS_16, at(panel), at(panel + 1), |t, weight| {
+                let q = c + t.cos() * x + t.sin() * y;
+                sum += weight * q.cross(t.cos() * y - t.sin() * x).z / q.length_squared();
+            });
+        }
+        sum
+    }
+
+    #[test]
+    fn arcs_agree_with_quadrature_in_both_precisions() {
+        let mut compared = 0;
+        Stream::new(7, "arcs").visit(0, 400, |_, draw| {
+            let frame = draw.frame();
+            let center = draw.log_uniform(0.3, 30.0) * draw.direction();
+            let (x, y) = (frame.x_axis, draw.uniform(0.1, 1.0) * (frame.y_axis + 0.3 * frame.x_axis));
+            let ellipse = Ellipse {
+                center: center.to_array(),
+                cos: x.to_array(),
+                sin: y.to_array(),
+                volume: center.dot(x.cross(y)),
+            };
+            let (from, to) = (draw.uniform(-3.0, 0.0), draw.uniform(0.1, 3.0));
+            let nearest = (0..1000)
+                .map(|k| {
+                    norm(ellipse.at([f64::cos(f64::from(k) * 0.01), f64::sin(f64::from(k) * 0.01)]).into())
+                })
+                .fold(f64::INFINITY, f64::min);
+            // Panels are a tenth of a radian, and a pole nearer than that leaves digits.
+            if nearest < 0.2 || ellipse.volume.abs() < 0.01 {
+                return;
+            }
+            let cone = ellipse.cone();
+            let ends = [from, to].map(|t| ellipse.at([t.cos(), t.sin()]));
+            let arc = ellipse.arc(&cone, ends[0], ends[1], to - from);
+            let expected = quadrature(&ellipse, from, to);
+            // 36 roundings of what the term says, and of the ends, which lie that much off the rim.
+            assert!(
+                (arc.value - expected).abs() <= 4e-15 * (0.25 + arc.size),
+                "{ellipse:?}: {arc:?} {expected}"
+            );
+            let whole = ellipse.whole(&cone);
+            let around = quadrature(&ellipse, 0.0, TAU);
+            assert!(
+                (whole.value - around).abs() <= 4e-15 * (1.0 + whole.size),
+                "{ellipse:?}: {whole:?} {around}"
+            );
+
+            let lift = |v: Vector<f64>| v.map(DoubleDouble::from);
+            let [c, x, y] = [center.to_array(), ellipse.cos, ellipse.sin].map(lift);
+            let fine = Ellipse { center: c, cos: x, sin: y, volume: dot(c, cross(x, y)) };
+            let value = fine.arc(&fine.cone(), lift(ends[0]), lift(ends[1]), to - from).value.to_f64();
+            assert!((value - expected).abs() <= 4e-15 * (0.25 + arc.size), "{ellipse:?}: {value} {expected}");
+            compared += 1;
+        });
+        assert!(compared > 200, "{compared}");
+    }
+}
