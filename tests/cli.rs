@@ -73,6 +73,8 @@ fn wrong_calls_are_refused_in_one_line() {
         (&["audit", "--device", "7"], "no device matches '7'"),
         (&["audit", "--threads", "0"], "--threads must be from 1"),
         (&["bench", "--seconds", "0"], "--seconds must be above 0"),
+        (&["bench", "ellipse_axes", "--reference", "nave"], "did you mean 'naive'?"),
+        (&["bench", "--regime", "random"], "streaming"),
         (&["list", "elipse"], "unknown family 'elipse'"),
         (&["eval", "ellipse_axes"], "--inputs"),
         (&["eval", "nothing", "--inputs", "x"], "unknown family 'nothing'"),
@@ -362,6 +364,55 @@ fn devices_are_listed_in_words_and_json() {
 }
 
 #[test]
+fn probes_are_told_in_words_and_json() {
+    let words = succeeds(rootq().args(["devices", "--probe"]));
+    assert!(words.contains("llvmpipe") && words.contains("SwiftShader"), "{words}");
+    for line in ["fma(a, b, c)", "subnormals: result of *", "min(1, NaN)", "bits of a sampler's weight"] {
+        assert!(words.lines().any(|text| text.trim().starts_with(line)), "{line}: {words}");
+    }
+    let devices: Value = serde_json::from_str(&succeeds(
+        rootq().args(["devices", "--probe", "--json", "--device", "llvmpipe"]),
+    ))
+    .unwrap();
+    let devices = devices.as_array().unwrap();
+    assert_eq!(devices.len(), 1);
+    assert!(devices[0]["name"].as_str().unwrap().contains("llvmpipe"));
+    assert_eq!(devices[0]["probe"]["subnormals"]["copied"], true);
+    assert!(devices[0]["probe"]["special"].as_array().unwrap().len() > 20);
+    is_refused(rootq().args(["devices", "--probe", "--device", "GeForce"]), "no device matches 'GeForce'");
+}
+
+#[test]
+fn a_builtin_s_table_says_whether_it_keeps_the_specification() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("run");
+    let mut command = rootq();
+    command.args(["audit", "inversesqrt/{native,quake_1}", "-n", "20K", "--scenario", "domain"]);
+    let words = succeeds(command.args(["--device", "llvmpipe", "--out"]).arg(&out));
+    let line = |name: &str| {
+        let line =
+            words.lines().find(|line| line.trim().starts_with(name)).unwrap_or_else(|| panic!("{words}"));
+        line.split_whitespace().map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(line("native")[1], "keeps");
+    assert_eq!(line("quake_1")[1], "breaks");
+    // The configuration of the worst ULP is in the record, and its output is that far off.
+    let run = run_json(&out);
+    let result = &run["families"][0]["variants"][0]["results"][0]["audit"];
+    let worst = &result["outputs"][0]["extremes"]["ulp"];
+    let number = |value: &Value| value.as_f64().unwrap();
+    // The decimals are those of f32.
+    let single = |value: &Value| f64::from(number(value) as f32);
+    let (x, got) = (single(&worst["inputs"][0]), single(&worst["output"][0]));
+    let truth = 1.0 / x.sqrt();
+    assert!((number(&worst["truth"][0]) / truth - 1.0).abs() < 1e-15);
+    let off = ((got - truth) / truth).abs() * 2f64.powi(24);
+    // A unit in the last place is between one and two parts in 2^24.
+    let ulp = number(&worst["size"]);
+    assert!(off > 1000.0 && (0.999 * off / 2.0..=1.001 * off).contains(&ulp), "{off} {ulp}");
+}
+
+#[test]
 fn help_says_what_each_verb_is_for() {
     for verb in ["devices", "list", "run", "audit", "bench", "eval"] {
         let help = succeeds(rootq().args([verb, "--help"]));
@@ -412,4 +463,65 @@ fn interruption_leaves_nothing() {
     };
     assert_eq!((status.code(), status.signal()), (Some(130), None));
     assert!(entries(folder.path()).is_empty(), "{:?}", entries(folder.path()));
+}
+
+#[test]
+fn bench_ranks_and_says_what_is_noise() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("run");
+    let mut command = rootq();
+    command.args(["bench", "ellipse_axes/{naive,cross,jacobi}", "--reference", "naive", "--seconds", "0.05"]);
+    let stdout = succeeds(command.args(["--device", "llvmpipe", "--out"]).arg(&out));
+    for expected in ["(null)", "divergent: ratios to naive; against itself", "Ceilings of this run", "places"]
+    {
+        assert!(stdout.contains(expected), "no '{expected}' in {stdout}");
+    }
+    assert!(stdout.contains("times rank only within the same machine and run."), "{stdout}");
+
+    let run = run_json(&out);
+    let positive = |value: &Value| assert!(value.as_f64().unwrap() > 0.0, "{value}");
+    let ceilings = run["ceilings"].as_object().unwrap();
+    assert_eq!(ceilings.len(), 6);
+    ceilings.values().for_each(|ceiling| positive(&ceiling["per_second"]));
+    let family = &run["families"][0];
+    let rankings = family["scenarios"][0]["rankings"].as_array().unwrap();
+    assert_eq!(rankings.len(), 3);
+    for ranking in rankings {
+        assert_eq!(ranking["reference"], "naive");
+        positive(&ranking["null_ns"]["median"]);
+        assert!(ranking["noise"].as_f64().unwrap() >= 0.0);
+        assert!(ranking["rounds"].as_u64().unwrap() >= 11, "{ranking}");
+    }
+    for variant in family["variants"].as_array().unwrap() {
+        positive(&variant["spirv"]["operations"]["flops"]);
+        let result = &variant["results"][0];
+        let arithmetic = result["arithmetic"].as_array().unwrap();
+        assert_eq!(arithmetic.len(), 2);
+        for timing in arithmetic.iter().chain([&result["timing"]]) {
+            positive(&timing["ns"]["median"]);
+            let ratio = |name: &str| timing["ratio"][name].as_f64().unwrap();
+            assert!(ratio("low") <= ratio("median") && ratio("median") <= ratio("high"), "{timing}");
+            let place = |name: &str| timing["rank"][name].as_u64().unwrap();
+            assert!(1 <= place("first") && place("first") <= place("last") && place("last") <= 3, "{timing}");
+            // Nothing is faster than the fastest kernel there is for it; but a machine that was busy with other things
+            // while the ceilings were measured, and is not any more, may be several times as fast.
+            assert!(timing["share"]["arithmetic"].as_f64().unwrap() < 8.0, "{timing}");
+            assert!(timing["share"]["bandwidth"].as_f64().unwrap() < 8.0, "{timing}");
+        }
+        assert!(arithmetic[0]["evaluations"].as_u64().unwrap() >= 16);
+    }
+}
+
+#[test]
+fn one_regime_and_the_hosts_clock_can_be_asked_for() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("run");
+    let mut command = rootq();
+    command.args(["bench", "horizon_sphere/{stable,rational}", "--regime", "streaming", "--seconds", "0.05"]);
+    let stdout = succeeds(command.args(["--host-clock", "--device", "llvmpipe", "--out"]).arg(&out));
+    assert!(stdout.contains("by the host's clock"), "{stdout}");
+    let run = run_json(&out);
+    let result = &run["families"][0]["variants"][0]["results"][0];
+    assert_eq!(result["timing"]["clock"], "host_fence");
+    assert!(result.get("arithmetic").is_none(), "{result}");
 }

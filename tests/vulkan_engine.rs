@@ -126,8 +126,9 @@ fn validation_messages_are_heard() {
     install_drivers();
     let instance = Instance::open(true).expect("a Vulkan loader with the validation layer");
     let device = VulkanDevice::open(&instance, 0).expect("a device");
-    // Sixteen bytes of push constants where the layout has twelve: wrong, and harmless to compile.
-    let spirv = glsl::compile_with("uint first, count, stride, more;", "o[k] = i[k] + float(more);");
+    // Twenty bytes of push constants where the layout has sixteen: wrong, and harmless to compile.
+    let spirv =
+        glsl::compile_with("uint first, count, stride, evaluations, more;", "o[k] = i[k] + float(more);");
     let kernel = Kernel { id: "test/greedy".to_owned(), spirv, inputs: 1, outputs: 1, tables: Vec::new() };
     let _program = device.program(&kernel);
     let messages = instance.validation_messages();
@@ -278,6 +279,32 @@ fn buffers_are_recycled() {
                 assert!(usage.created <= buffers, "round {round}: {usage:?}");
             }
             assert!(device.buffer_usage().recycled >= 9 * (buffers - 1), "{:?}", device.buffer_usage());
+        });
+    }
+}
+
+/// A timing loop gets its count, whatever the dispatches it is split in.
+#[test]
+fn a_loop_runs_as_often_as_it_is_told() {
+    for options in [Options::default(), staged(), Options { ignore_timestamps: true, ..Options::default() }] {
+        on_every_device(options, |device| {
+            let spirv = glsl::compile_with(
+                "uint first, count, stride, evaluations;",
+                "float x = i[k]; for (uint n = 0; n < evaluations; ++n) x += 1.0; o[k] = x;",
+            );
+            let kernel =
+                Kernel { id: "test/loop".to_owned(), spirv, inputs: 3, outputs: 1, tables: Vec::new() };
+            let once = device.program(&kernel).expect("a program");
+            let often = device.repeating(&once, 100).expect("a device that loops");
+            let rows: Vec<f32> = (0..3 * 20_000).map(|value| value as f32).collect();
+            let inputs = device.upload(&rows, 3).expect("inputs");
+            for (program, added) in [(&once, 1.0), (&often, 100.0), (&often, 100.0)] {
+                let outputs =
+                    device.wait(device.submit(program, &inputs).expect("a submission")).expect("outputs");
+                for (row, value) in outputs.column(0).iter().enumerate() {
+                    assert_eq!(*value, rows[3 * row] + added, "row {row}");
+                }
+            }
         });
     }
 }

@@ -1,79 +1,82 @@
-// The irradiance of an elliptic cone's part above the horizon, in closed form: no table, no equal-area sphere.
+// The irradiance of an elliptic cone's part above the horizon, in closed form: no table, no equal-area sphere. Ours.
 //
-// The cone has the principal axes W1, W2, W3 (mean direction) and the tangents sqrt(e1/l) >= sqrt(e3/l) of its half
-// angles, so its rim is p(u) = (sqrt(e1) cos u, sqrt(e3) sin u, sqrt(l)) there. With A = l + e1, B = l + e3, k = e1 - e3 and
-// q = |p|^2, Stokes' theorem over the arc u0 - d .. u0 + d above the horizon, closed along the horizon, gives
+// With the dual quadric's eigenvalues e1 >= e3 > 0 > -l, heights W1, W2, W3 of its unit axes, A = l + e1, B = l + e3, k = e1 - e3, and
 //
-//     2 pi E = W1.z Ix + W2.z Iy + W3.z Iz + dphi
-//     Ix = -sqrt(e3 l) D asinh(z)/z      D = 2 cos u0 sin d / sqrt(q1 q2), z = D sqrt(k A)
-//     Iy = -sqrt(e1 l) G atan(y, x)/y    G = 2 sin u0 sin d / B, y = G sqrt(k B), x = 1 + (k/B)(cos^2 u0 - sin^2 d)
-//     Iz = sqrt(e1 e3/(A B)) atan(sqrt(A B) sin 2d, A cos u1 cos u2 + B sin u1 sin u2)
+//     szz = e1 W1^2 + e3 W2^2 - l W3^2 > 0, which says that the horizon cuts the cone      m = szz + l W3^2
 //
-// The differences of antiderivatives are single functions by the addition theorems, so that small, far and circular
-// lights (k -> 0) cancel nothing: each term is within a few roundings of itself, and a light that subtends an angle w
-// is off by about 2^-23 w. Pure functions. Source: ours.
+// Stokes' theorem along the rim between the crossings, closed along the horizon, gives
+//
+//     2 pi E = F turn + dphi - 2 v sqrt(szz) (W1^2 atanh(x, z)/z + W2^2 atan(y, c)/y)      v = |[C, V1, V2]| = sqrt(e1 e3 l)
+//
+//     F     the whole cone's irradiance, signed: v W3/sqrt(l A B)
+//     turn  = angle(-2 sqrt(l A B szz) W3, l ((A + B - l) W3^2 - szz) - e1 e3 (1 - W3^2)), in 0..2 pi
+//     z, x  = 2 sqrt(szz A e1 k W1^2), A m - e3 k W2^2 + k szz             x^2 - z^2 = the square of turn's arguments
+//     y, c  = 2 sqrt(szz B e3 k W2^2), B m + e1 k W1^2 - k szz
+//
+// in which the axes occur by k W1^2 = m - e3 (1 - W3^2) and k W2^2 alone: no eigenvector but the mean direction is needed.
+// The differences of antiderivatives are single functions by the addition theorems, so that small, far and circular lights
+// (k -> 0) cancel nothing: each term is within a few roundings of itself, and a light that subtends an angle w is off by about
+// 2^-22 w.
 
 #ifndef ROOTQ_CLIPPED_ELLIPSE
 #define ROOTQ_CLIPPED_ELLIPSE
 
 #include "common/arctangent.glsl"
+#include "common/disk_cone.glsl"
 
-const float CLIPPED_PI = 3.14159265358979;
+const float CLIPPED_TURN = 6.28318530718;
 
-// asinh(z)/z: within 1e-7. Below 1/2 by its series, whose next term is 0.0139 z^12.
-float asinh_ratio(float z)
+// atanh(z/x)/z = log(sum^2/square)/(2 z) for sum = x + z, square = x^2 - z^2 > 0, z >= 0: within 6e-7. The logarithm is split into
+// a power of two 2^n and atanh(r), |r| <= 0.2; for n = 0 it is r = z/x itself.
+float clipped_log_ratio(float x, float z, float square)
 {
-    float s = z * z;
-    float series =
-        1.0 + s * (-0.166666667 + s * (0.075 + s * (-0.0446428571 + s * (0.0303819444 + s * -0.0223721591))));
-    float r = abs(z);
-    return s < 0.25 ? series : log(r + sqrt(1.0 + s)) / r;
+    float sum = (x + z) * (x + z);
+    // The difference of the bits is the difference of the logarithms to base 2, up to 0.09.
+    int n = (floatBitsToInt(sum) - floatBitsToInt(square) + (1 << 22)) >> 23;
+    bool small = n == 0;
+    float scaled = uintBitsToFloat(uint(clamp(127 + n, 1, 254)) << 23) * square;
+    float r = (small ? z : sum - scaled) / (small ? x : sum + scaled);
+    float s = r * r;
+    float p = 1.0 + s * (0.33333334 + s * (0.19998 + s * 0.1463));
+    return (small ? p : 0.34657359 * float(n) + r * p) / (small ? x : z);
 }
 
-// E for the heights of W1, W2, W3, (e1, e3), l, and szz = e1 W1.z^2 + e3 W2.z^2 - l W3.z^2 > 0, which says that the
-// horizon cuts the cone. e1 >= e3 > 0 and l > 0 up to about 2^40.
-float clipped_ellipse(vec3 heights, vec2 e, float l, float szz)
+float clipped_ellipse(DiskCone cone, float szz)
 {
-    vec2 root = sqrt(e);
-    vec2 sides = heights.xy * root;
-    float middle = heights.z * sqrt(l);
-    float inverse_swing = inversesqrt(middle * middle + szz);
-    float cos_d = -middle * inverse_swing;
-    float sin_d = sqrt(szz) * inverse_swing;
-    vec2 top = dot(sides, sides) > 1.0e-30 ? normalize(sides) : vec2(1.0, 0.0);
+    float l = cone.l;
+    float root = sqrt(szz);
+    float w3 = cone.height2;
+    float rest = cone.level2;
+    float k = sqrt(max(cone.sum * cone.sum - 4.0 * cone.product, 0.0));
+    float e1 = 0.5 * (cone.sum + k);
+    float e3 = cone.product / max(e1, DISK_SMALLEST);
+    float A = l + e1;
+    float B = l + e3;
+    float m = l * w3 + szz;
+    float k1 = clamp(m - e3 * rest, 0.0, k * rest);
+    float k2 = k * rest - k1;
+    float w1 = k1 / max(k, DISK_SMALLEST);
+    float w2 = rest - w1;
 
-    float A = l + e.x;
-    float B = l + e.y;
-    float k = max(e.x - e.y, 0.0);
-    vec2 even = top * cos_d;
-    vec2 odd = vec2(-top.y, top.x) * sin_d;
-    vec2 u1 = even - odd;
-    vec2 u2 = even + odd;
-    vec2 AB = vec2(A, B);
-    float inverse_q = inversesqrt(dot(AB, u1 * u1)) * inversesqrt(dot(AB, u2 * u2));
+    float sine = 2.0 * root * cone.slant;
+    float swing = l * (l + cone.sum) * w3 - cone.product * rest;
+    float cosine = swing - l * szz;
+    float turn = arctangent_upper(abs(sine), cosine);
+    turn = sine > 0.0 ? CLIPPED_TURN - turn : turn;
 
-    float root_l = sqrt(l);
-    float D = 2.0 * top.x * sin_d * inverse_q;
-    float Ix = -root.y * root_l * D * asinh_ratio(D * sqrt(k * A));
+    float z = 2.0 * sqrt(szz * A * (e1 * k1));
+    float x = A * m - e3 * k2 + k * szz;
+    float first = clipped_log_ratio(x, z, sine * sine + cosine * cosine);
 
-    float G = 2.0 * top.y * sin_d / B;
-    float y = G * sqrt(k * B);
-    float x = 1.0 + k / B * (top.x * top.x - sin_d * sin_d);
-    float Iy = -root.x * root_l * G * (abs(y) > 1.0e-4 * x ? arctangent(y, x) / y : 1.0 / x);
+    float y = 2.0 * sqrt(szz * B * (e3 * k2));
+    float c = B * m + e1 * k1 - k * szz;
+    bool narrow = y <= 1.0e-4 * abs(c);
+    float second = (narrow ? 1.0 : arctangent_upper(y, c)) / (narrow ? c : y);
 
-    float root_AB = sqrt(A) * sqrt(B);
-    float turn = arctangent(2.0 * root_AB * sin_d * cos_d, dot(AB, u1 * u2));
-    turn = cos_d < 0.0 ? turn + 2.0 * CLIPPED_PI : turn;
-    float Iz = root.x * root.y / root_AB * turn;
-
-    // The crossings are m -+ s; their azimuths differ by the angle between them.
-    vec2 m = root * even;
-    vec2 s = root * odd;
-    float area = length(vec3(root_l * s, m.x * s.y - m.y * s.x));
-    float dphi = arctangent(2.0 * area, dot(m, m) + l - dot(s, s));
-
-    float sum = dot(heights, vec3(Ix, Iy, Iz)) + dphi;
-    return clamp(sum * (0.5 / CLIPPED_PI), 0.0, 1.0);
+    float scale = 2.0 * cone.volume * root;
+    float dphi = arctangent_upper(scale, swing + l * szz);
+    float sum = cone.volume * (cone.rise * turn) + dphi - scale * (w1 * first + w2 * second);
+    return clamp(sum * (1.0 / CLIPPED_TURN), 0.0, 1.0);
 }
 
 #endif

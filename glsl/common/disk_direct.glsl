@@ -1,39 +1,31 @@
-// Irradiance of an ellipse from its direct cone: EXACT_HORIZON for the closed form, else a sphere as HORIZON chooses
-// (common/horizon_choice.glsl). Ours.
+// Irradiance of an ellipse without its 2D eigensystem. Ours.
 
 #ifndef ROOTQ_DISK_DIRECT
 #define ROOTQ_DISK_DIRECT
 
-#ifdef EXACT_HORIZON
-#include "common/clipped_ellipse.glsl"
-#else
-#include "common/horizon_choice.glsl"
-#endif
-#include "common/disk_cone.glsl"
+#include "common/disk_irradiance.glsl"
 
 // Centre and any conjugate semi-axes before `minv`.
-float disk_direct(mat3 minv, vec3 C, vec3 V1, vec3 V2)
+float disk_direct(mat3 minv, vec3 center, vec3 v1, vec3 v2)
 {
-    disk_image(minv, C, V1, V2);
-    float swing = length(vec2(V1.z, V2.z));
-    if (C.z <= -swing) {
-        return 0.0;
-    }
-    DiskCone cone = disk_cone(C, V1, V2);
-    if (!(cone.l > 0.0)) {
-        return 0.0;
-    }
-#ifdef EXACT_HORIZON
-    if (C.z >= swing) {
-        return cone.form * max(cone.axis.z, 0.0);
-    }
-    vec3 heights;
-    vec2 e;
-    disk_principal(cone, C, V1, V2, heights, e);
-    return clipped_ellipse(heights, e, cone.l, (swing - C.z) * (swing + C.z));
-#else
-    return horizon_of_sphere(cone.axis.z, cone.form);
-#endif
+    DiskFrame f = disk_frame(minv, center, v1, v2);
+    float b2 = f.b * f.b;
+    // In the light's plane: [C, A], A (A x C) + B (B x C), and the projections on A and B.
+    float moment = f.h * f.c1 - f.a1 * f.d;
+    vec2 turned = vec2(f.h * moment, b2 * f.d - f.a1 * moment);
+    float on_a = f.a1 * f.c1 + f.h * f.d;
+    float on_b = f.b * f.c1;
+
+    Confocal k;
+    k.z = f.cz * f.cz;
+    k.sum = f.a1 * f.a1 + f.h * f.h + b2;
+    k.product = f.area * f.area;
+    k.alpha = f.c1 * f.c1 + f.d * f.d;
+    k.beta = moment * moment + b2 * f.d * f.d;
+    k.gamma = on_a * on_a + on_b * on_b;
+    k.kappa = dot(turned, turned);
+    float l = confocal_lambda(k, confocal_start(k));
+    return disk_irradiance(f, disk_cone(f, k, l, l * vec2(f.c1, f.d) + turned));
 }
 
 #endif

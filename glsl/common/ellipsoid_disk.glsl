@@ -32,10 +32,10 @@ mat3 ellipsoid_rotation(vec4 q)
         xz + w.y, yz - w.x, 1.0 - (xx + yy));
 }
 
-// The same ellipse by M = R D, without dividing by a semi-axis: with b = R^T c, the disk's normal is along
-// g = (b.x r.y r.z, b.y r.z r.x, b.z r.x r.y), |P_b| = |g|/v for v = r.x r.y r.z, and the ellipse's centre is (1 - (v/|g|)^2) c. One
-// semi-axis may be 0. 1: an ellipse; 0: nothing to see; -1: the point is inside. Ours.
-int ellipsoid_disk(inout vec3 center, mat3 R, vec3 r, out vec3 v1, out vec3 v2)
+// The same by M = R D, without dividing by a semi-axis: with b = R^T c, the direction n of P_b is along
+// g = (b.x r.y r.z, b.y r.z r.x, b.z r.x r.y), |P_b| = |g|/v for v = r.x r.y r.z, and the ellipse's centre is `share` c with
+// share = 1 - (v/|g|)^2. One semi-axis may be 0. 1: an ellipse; 0: nothing to see; -1: the point is inside. Ours.
+int ellipsoid_outline(vec3 center, mat3 R, vec3 r, out vec3 n, out float share)
 {
     vec3 b = center * R;
     vec3 g = b * r.yzx * r.zxy;
@@ -44,15 +44,30 @@ int ellipsoid_disk(inout vec3 center, mat3 R, vec3 r, out vec3 v1, out vec3 v2)
     g *= scale;
     v *= scale;
     float size = length(g);
-    v1 = vec3(0.0);
-    v2 = vec3(0.0);
+    n = vec3(0.0, 0.0, 1.0);
+    share = 0.0;
     if (!(size > v)) {
         return v > 0.0 ? -1 : 0;
     }
+    n = g / size;
+    share = (size - v) / size * ((size + v) / size);
+    return 1;
+}
+
+// Centre and conjugate semi-axes of that ellipse.
+int ellipsoid_disk(inout vec3 center, mat3 R, vec3 r, out vec3 v1, out vec3 v2)
+{
+    vec3 n;
+    float share;
+    int seen = ellipsoid_outline(center, R, r, n, share);
+    v1 = vec3(0.0);
+    v2 = vec3(0.0);
+    if (seen < 1) {
+        return seen;
+    }
     vec3 b1;
     vec3 b2;
-    sphere_basis(g / size, b1, b2);
-    float share = (size - v) / size * ((size + v) / size);
+    sphere_basis(n, b1, b2);
     float root = sqrt(share);
     center *= share;
     v1 = R * (root * r * b1);

@@ -101,4 +101,61 @@ vec3 cross_fma(vec3 a, vec3 b)
     return difference_of_products_fma(a.yzx, b.zxy, a.zxy, b.yzx);
 }
 
+// a + b as the rounded sum and, in `low`, its rounding error: exactly. Source: Knuth, The Art of Computer Programming 2.
+vec3 sum_pair(vec3 a, vec3 b, out vec3 low)
+{
+    precise vec3 sum = a + b;
+    precise vec3 of_b = sum - a;
+    precise vec3 of_a = sum - of_b;
+    precise vec3 error = (a - of_a) + (b - of_b);
+    low = error;
+    return sum;
+}
+
+// a x b as a vector and, in `low`, the rest: off by 2^-46 of each component's products. Source: Dekker 1971.
+vec3 cross_pair(vec3 a, vec3 b, out vec3 low)
+{
+    vec3 a_high = mask_high(a);
+    vec3 b_high = mask_high(b);
+    precise vec3 a_low = a - a_high;
+    precise vec3 b_low = b - b_high;
+
+    precise vec3 p = a.yzx * b.zxy;
+    precise vec3 q = a.zxy * b.yzx;
+    vec3 p_error = product_error(p, a_high.yzx, a_low.yzx, b_high.zxy, b_low.zxy);
+    vec3 q_error = product_error(q, a_high.zxy, a_low.zxy, b_high.yzx, b_low.yzx);
+
+    vec3 error;
+    vec3 difference = sum_pair(p, -q, error);
+    precise vec3 rest = error + (p_error - q_error);
+    precise vec3 sum = difference + rest;
+    precise vec3 remainder = rest - (sum - difference);
+    low = remainder;
+    return sum;
+}
+
+// (a + a_low).(b + b_low), the second parts at most 2^-24 of the first: off by one rounding of the result and 2^-45 of
+// the products. Source: Ogita, Rump & Oishi 2005, with the second parts' products added.
+float dot_pair(vec3 a, vec3 a_low, vec3 b, vec3 b_low)
+{
+    vec3 a_high = mask_high(a);
+    vec3 b_high = mask_high(b);
+    precise vec3 p = a * b;
+    precise vec3 a_rest = a - a_high;
+    precise vec3 b_rest = b - b_high;
+    vec3 p_error = product_error(p, a_high, a_rest, b_high, b_rest);
+    precise vec3 small = p_error + (a * b_low + a_low * b);
+
+    vec3 error;
+    float first = sum_pair(p.xxx, p.yyy, error).x;
+    precise float rest = error.x;
+    float sum = sum_pair(vec3(first), p.zzz, error).x;
+    rest = rest + error.x;
+    rest = rest + small.x;
+    rest = rest + small.y;
+    rest = rest + small.z;
+    precise float result = sum + rest;
+    return result;
+}
+
 #endif

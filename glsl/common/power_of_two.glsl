@@ -24,4 +24,14 @@ float reciprocal_power_of_two(float s)
     return uintBitsToFloat((254u << 23) - floatBitsToUint(s));
 }
 
+// x times a over b, two powers of two in 2^-126..2^126, rounded only if the result is denormal.
+float times_ratio(float x, float a, float b)
+{
+    int exponent = int(floatBitsToUint(a) >> 23) - int(floatBitsToUint(b) >> 23);
+    int half_way = exponent / 2;
+    float first = uintBitsToFloat(uint(half_way + 127) << 23);
+    float second = uintBitsToFloat(uint(exponent - half_way + 127) << 23);
+    return x * first * second;
+}
+
 #endif

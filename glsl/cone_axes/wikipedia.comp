@@ -20,8 +20,10 @@ precise = true
 // Domain: centres off the light's plane, non-zero semi-axes. Source: Smith 1961.
 // Bound: every root is off by 2^-24 of the largest, more by what acos loses near r = +-1; a far light's largest root is
 // its squared distance in radii, its negative root about 1.
-// Measured: lavapipe, Mesa 22.3, 1 M a scenario: fails 48 % of scene, 3.5 % of facing, 99 % of far, 85 % near the plane,
-// 78 % of needle.
+// Measured: llvmpipe (Mesa 22.3.6 (LLVM 15.0.6)), 1,000,000 a scenario, seed 1.
+// Failed and the worst error, whoever is to blame; n: failed, and so many of them not finite.
+//                   scene     facing       far  near_plane    needle      edge
+//   wikipedia   48% n4.7%  3.5% 1e-1  99% n52%    85% n11%  78% n13%  66% n45%
 
 #include "common/cone_quadric.glsl"
 

@@ -1,7 +1,10 @@
 //! One chunk of a scenario: inputs and truth, a pure function of (family, scenario, seed, index range).
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
+use super::exact_bits;
+use super::fingerprint::row_hash;
 use super::summary::Row;
 use crate::family::{CERTIFIED, Problem, Scenario, Truth};
 use crate::sample::Stream;
@@ -22,13 +25,14 @@ pub struct Chunk {
     inputs: Vec<f32>,
     truth: Vec<f64>,
     sensitivities: Vec<f64>,
+    margins: Vec<f64>,
     bins: Vec<u8>,
     /// What the oracle said of its own certainty.
     pub oracle: OracleSummary,
 }
 
 /// The oracle's certainty over many configurations; merges like everything else.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OracleSummary {
     pub configurations: u64,
     /// Plain f64 did not do.
@@ -36,6 +40,7 @@ pub struct OracleSummary {
     /// Not certified even so: the bound is above 1/16 of the f32 spacing.
     pub uncertified: u64,
     /// Largest error bound in units of the f32 spacing.
+    #[serde(with = "exact_bits")]
     pub worst_bound: f64,
 }
 
@@ -50,6 +55,17 @@ struct Widths {
 impl Chunk {
     /// Draws the configurations `first .. first + rows` of a scenario and computes their truth.
     pub fn draw(problem: &dyn Problem, scenario: &Scenario, seed: u64, first: u64, rows: usize) -> Self {
+        Chunk::of_inputs(problem, first, Chunk::draw_inputs(problem, scenario, seed, first, rows))
+    }
+
+    /// Only the inputs of [`draw`](Self::draw), row-major.
+    pub fn draw_inputs(
+        problem: &dyn Problem,
+        scenario: &Scenario,
+        seed: u64,
+        first: u64,
+        rows: usize,
+    ) -> Vec<f32> {
         let stream = Stream::new(seed, &format!("{}/{}", problem.name(), scenario.name));
         let width: usize = problem.inputs().iter().map(|field| field.ty.components()).sum();
         let mut inputs = vec![0.0; rows * width];
@@ -59,10 +75,16 @@ impl Chunk {
                 (scenario.draw)(draw, &mut inputs[row * width..][..width]);
             });
         });
+        inputs
+    }
+
+    /// The truth of consecutive bit patterns of a family's one input column.
+    pub fn of_bits(problem: &dyn Problem, first: u64, rows: usize) -> Self {
+        let inputs = (first..first + rows as u64).map(|bits| f32::from_bits(bits as u32)).collect();
         Chunk::of_inputs(problem, first, inputs)
     }
 
-    /// The truth of given inputs, row-major and finite.
+    /// The truth of given inputs, row-major and what the oracle takes.
     pub fn of_inputs(problem: &dyn Problem, first: u64, inputs: Vec<f32>) -> Self {
         let signature = problem.signature();
         let widths = Widths {
@@ -74,14 +96,16 @@ impl Chunk {
         let rows = inputs.len() / widths.inputs;
         let mut truth = vec![0.0; rows * widths.truth];
         let mut sensitivities = vec![0.0; rows * widths.sensitivities];
+        let mut margins = vec![0.0; rows];
         let mut bins = vec![0; rows * widths.bins];
         // A family without landmarks has empty bins, which cannot be chunked by zero.
         let oracle = inputs
             .par_chunks(BLOCK * widths.inputs)
             .zip(truth.par_chunks_mut(BLOCK * widths.truth))
             .zip(sensitivities.par_chunks_mut(BLOCK * widths.sensitivities))
+            .zip(margins.par_chunks_mut(BLOCK))
             .zip(bins.par_chunks_mut((BLOCK * widths.bins).max(1)))
-            .map(|(((inputs, truth), sensitivities), bins)| {
+            .map(|((((inputs, truth), sensitivities), margins), bins)| {
                 let mut oracle = OracleSummary::default();
                 let mut scratch = Truth::new(problem.outputs());
                 for (row, input) in inputs.chunks_exact(widths.inputs).enumerate() {
@@ -91,6 +115,7 @@ impl Chunk {
                     truth[row * widths.truth..][..widths.truth].copy_from_slice(scratch.values());
                     sensitivities[row * widths.sensitivities..][..widths.sensitivities]
                         .copy_from_slice(scratch.sensitivities());
+                    margins[row] = scratch.margin();
                     for (bin, landmark) in bins[row * widths.bins..].iter_mut().zip(problem.landmarks()) {
                         *bin = landmark.bin(input, &scratch) as u8;
                     }
@@ -98,7 +123,7 @@ impl Chunk {
                 oracle
             })
             .reduce(OracleSummary::default, OracleSummary::merged);
-        Chunk { first, rows, widths, inputs, truth, sensitivities, bins, oracle }
+        Chunk { first, rows, widths, inputs, truth, sensitivities, margins, bins, oracle }
     }
 
     pub fn rows(&self) -> usize {
@@ -108,6 +133,13 @@ impl Chunk {
     /// Row-major inputs.
     pub fn inputs(&self) -> &[f32] {
         &self.inputs
+    }
+
+    /// A sum over hashes of (index, inputs), which merges by wrapping addition: equal sums, the same configurations.
+    pub fn digest(&self) -> u64 {
+        let row = |(row, input)| row_hash(self.first + row as u64, input);
+        let rows = self.inputs.par_chunks_exact(self.widths.inputs).with_min_len(BLOCK).enumerate();
+        rows.map(row).reduce(|| 0, u64::wrapping_add)
     }
 
     /// The exact components of one configuration, in column order.
@@ -122,6 +154,7 @@ impl Chunk {
             inputs: &self.inputs[row * inputs..][..inputs],
             truth: self.truth(row),
             sensitivities: &self.sensitivities[row * sensitivities..][..sensitivities],
+            margin: self.margins[row],
             bins: &self.bins[row * bins..][..bins],
         }
     }

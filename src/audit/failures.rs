@@ -2,19 +2,27 @@
 
 use std::collections::BinaryHeap;
 
-use super::Verdict;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::fingerprint::mix;
+use super::{Verdict, exact_bits};
 
 /// One failing configuration as it was seen.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
     pub index: u64,
     pub verdict: Verdict,
+    #[serde(with = "exact_bits")]
     pub inputs: Vec<f32>,
+    #[serde(with = "exact_bits")]
     pub outputs: Vec<f32>,
+    #[serde(with = "exact_bits")]
     pub truth: Vec<f64>,
     /// One an output, in the quantity's own measure.
+    #[serde(with = "exact_bits")]
     pub errors: Vec<f64>,
     /// One an output.
+    #[serde(with = "exact_bits")]
     pub ulps: Vec<f64>,
 }
 
@@ -32,7 +40,7 @@ impl Failures {
 
     /// Offers the failure of configuration `index`, which is only looked at if it is kept.
     pub fn offer(&mut self, index: u64, failure: impl FnOnce() -> Failure) {
-        let rank = (hash(index), index);
+        let rank = (mix(index), index);
         if self.kept.len() < self.limit {
             self.kept.push(Ranked { rank, failure: failure() });
         } else if self.kept.peek().is_some_and(|worst| rank < worst.rank) {
@@ -53,6 +61,24 @@ impl Failures {
         let mut failures: Vec<&Failure> = self.kept.iter().map(|ranked| &ranked.failure).collect();
         failures.sort_by_key(|failure| failure.index);
         failures
+    }
+}
+
+/// The limit and the failures by index.
+impl Serialize for Failures {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        (self.limit, self.sorted()).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Failures {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let (limit, kept) = <(usize, Vec<Failure>)>::deserialize(deserializer)?;
+        let mut failures = Failures::new(limit);
+        for failure in kept {
+            failures.offer(failure.index, || failure);
+        }
+        Ok(failures)
     }
 }
 
@@ -77,14 +103,6 @@ impl Ord for Ranked {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
         self.rank.cmp(&other.rank)
     }
-}
-
-/// The finaliser of SplitMix64, a bijection of 64 bits.
-fn hash(index: u64) -> u64 {
-    let mut z = index.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Counts of errors in logarithmic buckets: exact integers, so that merging is addition.
 
+use serde::{Deserialize, Serialize};
+
 /// Buckets an octave: the two leading mantissa bits.
 const PER_OCTAVE: usize = 4;
 /// Octaves 2^-64 .. 2^64.
@@ -9,7 +11,8 @@ const OCTAVES: usize = 128;
 /// A histogram of non-negative errors.
 ///
 /// Bucket 0 holds zero and what lies below 2^-64, the last one what is 2^64 or more, infinity included.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct Histogram {
     counts: Vec<u64>,
 }

@@ -2,15 +2,20 @@
 
 mod chunk;
 mod engine;
+mod exact_bits;
+mod extremes;
 mod failures;
+mod fingerprint;
 mod histogram;
 mod judge;
 mod summary;
 mod verdict;
 
 pub use chunk::{Chunk, MAX_CHUNK, OracleSummary};
-pub use engine::{Audited, Plan, Stopped, audit, judge};
+pub use engine::{Audited, Plan, Stopped, Sweep, audit, judge, sweep};
+pub use extremes::{Extremes, Specimen};
 pub use failures::{Failure, Failures};
+pub use fingerprint::Fingerprint;
 pub use histogram::Histogram;
 pub use judge::{EXPLAINED_BY_ROUNDING, Measure, measure};
 pub use summary::{Bin, OutputSummary, Summary, Worst};

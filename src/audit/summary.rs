@@ -1,13 +1,17 @@
 //! What an audit keeps of millions of comparisons. Everything in it merges by integer addition or by a maximum with a
 //! fixed rule for ties, so that neither threads nor chunks nor their order show.
 
+use serde::{Deserialize, Serialize};
+
+use super::exact_bits;
+use super::extremes::Extremes;
 use super::failures::{Failure, Failures};
 use super::judge::Measure;
-use super::{Histogram, Verdict, judge};
-use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem};
+use super::{Fingerprint, Histogram, Verdict, judge};
+use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem, Quantity};
 
 /// One variant on one scenario.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Summary {
     pub configurations: u64,
     /// By position in [`Verdict::ALL`].
@@ -16,30 +20,38 @@ pub struct Summary {
     /// One a landmark coordinate, one a bin.
     pub landmarks: Vec<Vec<Bin>>,
     pub failures: Failures,
+    /// Of all outputs.
+    pub bits: Fingerprint,
 }
 
 /// One output of one variant on one scenario.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct OutputSummary {
-    /// Configurations whose error is beyond the output's tolerance or not finite, whoever is to blame.
+    /// Configurations whose error is beyond the output's tolerance, not finite, or not to be had because only one of truth
+    /// and variant is a miss; whoever is to blame.
     pub beyond: u64,
     /// Configurations whose error is at least one step of 8 bits, of 10 bits, of binary16.
     pub visible: [u64; 3],
+    /// This and the others: of the configurations where neither truth nor variant is a miss.
     pub error: Histogram,
     pub ulp: Histogram,
     pub conditioned: Histogram,
     pub worst: Worst,
+    /// Only of builtins.
+    pub extremes: Extremes,
 }
 
 /// The worst finite error and its configuration; the smallest index among equals.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Worst {
+    #[serde(with = "exact_bits")]
     pub found: Option<(f64, u64)>,
+    #[serde(with = "exact_bits")]
     pub ulp: f64,
 }
 
 /// What happened in one bin of a landmark coordinate.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Bin {
     pub verdicts: [u64; Verdict::ALL.len()],
     /// One an output, as [`OutputSummary::beyond`].
@@ -66,6 +78,8 @@ pub(super) struct Row<'a> {
     pub inputs: &'a [f32],
     pub truth: &'a [f64],
     pub sensitivities: &'a [f64],
+    /// The relative change of the inputs that turns a hit into a miss or back.
+    pub margin: f64,
     /// One bin a landmark.
     pub bins: &'a [u8],
 }
@@ -79,40 +93,81 @@ impl Summary {
             outputs: vec![OutputSummary::default(); problem.outputs().len()],
             landmarks: problem.landmarks().iter().map(|l| vec![bin.clone(); l.edges.len() + 1]).collect(),
             failures: Failures::new(max_failures),
+            bits: Fingerprint::default(),
         }
     }
 
     /// Judges one configuration's outputs, given as all components in column order.
     pub(super) fn judge(&mut self, problem: &dyn Problem, row: Row<'_>, values: &[f32; MAX_COMPONENTS]) {
         let outputs = problem.outputs();
+        let values = &values[..row.truth.len()];
         let (mut errors, mut ulps) = ([0.0; MAX_OUTPUTS], [0.0; MAX_OUTPUTS]);
-        let mut starts = [0; MAX_OUTPUTS];
-        let mut verdict = Verdict::Ok;
-        let mut start = 0;
-        for (position, output) in outputs.iter().enumerate() {
-            let components = start..start + output.field.ty.components();
-            starts[position] = start;
-            start = components.end;
-            let measure = judge::measure(
-                output,
-                &values[components.clone()],
-                &row.truth[components],
-                row.sensitivities[position],
-            );
-            verdict = verdict.max(measure.verdict);
+        let mut record = |position: usize, measure: &Measure| {
             (errors[position], ulps[position]) = (measure.error, measure.ulp);
-            self.outputs[position].add(&measure, output.tolerance, row.index);
+        };
+        let mut verdict = Verdict::Ok;
+        let mut exact = [0.0; MAX_COMPONENTS];
+        for (exact, value) in exact.iter_mut().zip(values) {
+            *exact = f64::from(*value);
         }
-        for relation in problem.relations() {
-            let holds = judge::holds(*relation, outputs, |output| {
-                &values[starts[output]..][..outputs[output].field.ty.components()]
-            });
-            if !holds {
-                verdict = verdict.max(Verdict::NotOrthogonal);
+        let exact = &exact[..values.len()];
+        let finite = values.iter().all(|value| value.is_finite());
+        let (missed, truth_missed) = (problem.is_miss(exact), problem.is_miss(row.truth));
+        if let Some(class) = judge::miss(finite, missed, truth_missed, row.margin) {
+            verdict = class;
+            for (position, summary) in self.outputs.iter_mut().enumerate().filter(|_| class != Verdict::Ok) {
+                let failed = Measure::failed(class);
+                record(position, &failed);
+                if finite {
+                    summary.add_unmeasured();
+                } else {
+                    summary.add(&failed, outputs[position].tolerance, row.index);
+                }
+            }
+        } else {
+            let mut start = 0;
+            let mut starts = [0; MAX_OUTPUTS];
+            for (position, output) in outputs.iter().enumerate() {
+                let components = start..start + output.field.ty.components();
+                starts[position] = start;
+                start = components.end;
+                let sensitivity = row.sensitivities[position];
+                let measure = match output.quantity {
+                    Quantity::Property => {
+                        let residual = problem.residual(position, row.inputs, exact);
+                        judge::residual(output, residual, sensitivity)
+                    }
+                    _ => judge::measure(
+                        output,
+                        &values[components.clone()],
+                        &row.truth[components.clone()],
+                        sensitivity,
+                    ),
+                };
+                verdict = verdict.max(measure.verdict);
+                if output.quantity == Quantity::Builtin {
+                    let (value, truth) = (&values[components.clone()], &row.truth[components]);
+                    self.outputs[position].extremes.add(&measure, row, value, truth, sensitivity);
+                    if measure.verdict == Verdict::Unspecified {
+                        continue;
+                    }
+                }
+                record(position, &measure);
+                self.outputs[position].add(&measure, output.tolerance, row.index);
+            }
+            let components = |at: usize| starts[at]..starts[at] + outputs[at].field.ty.components();
+            for relation in problem.relations() {
+                verdict = verdict.max(judge::relate(
+                    *relation,
+                    outputs,
+                    |output| &values[components(output)],
+                    |output| &row.truth[components(output)],
+                ));
             }
         }
 
         self.configurations += 1;
+        self.bits.add(row.index, values);
         self.verdicts[verdict as usize] += 1;
         for (bins, bin) in self.landmarks.iter_mut().zip(row.bins) {
             let bin = &mut bins[usize::from(*bin)];
@@ -126,7 +181,7 @@ impl Summary {
                 index: row.index,
                 verdict,
                 inputs: row.inputs.to_vec(),
-                outputs: values[..start].to_vec(),
+                outputs: values.to_vec(),
                 truth: row.truth.to_vec(),
                 errors: errors[..outputs.len()].to_vec(),
                 ulps: ulps[..outputs.len()].to_vec(),
@@ -146,6 +201,7 @@ impl Summary {
             add(&mut mine.beyond, &theirs.beyond);
         }
         self.failures.merge(other.failures);
+        self.bits.merge(&other.bits);
     }
 
     /// Configurations with this verdict.
@@ -173,12 +229,21 @@ impl OutputSummary {
         }
     }
 
+    /// Counts a miss for a hit or a hit for a miss: beyond any tolerance, and surely seen.
+    fn add_unmeasured(&mut self) {
+        self.beyond += 1;
+        for count in &mut self.visible {
+            *count += 1;
+        }
+    }
+
     fn merge(&mut self, other: &OutputSummary) {
         self.beyond += other.beyond;
         add(&mut self.visible, &other.visible);
         self.error.merge(&other.error);
         self.ulp.merge(&other.ulp);
         self.conditioned.merge(&other.conditioned);
+        self.extremes.merge(&other.extremes);
         if let Some((error, index)) = other.worst.found {
             self.worst.offer(error, other.worst.ulp, index);
         }

@@ -77,19 +77,35 @@ pub(super) fn tables(bindings: &[TableBinding]) -> String {
     text
 }
 
+/// What the generated `main()` does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Main {
+    /// One evaluation a configuration.
+    Evaluate,
+    /// As many evaluations in registers as the push constants say, each after the last.
+    ///
+    /// Every input is multiplied by 1 or by 1 - 2^-24, whichever a bit of all results of the last evaluation says. So no
+    /// evaluation can begin before the last one has ended, or be left out; an input stays or becomes its neighbour towards
+    /// zero, which keeps it in any domain that holds 0 or ends with a bound on the magnitude; zero stays zero; and
+    /// results that are not finite are bits like others. `precise`, lest the factor be taken out of a homogeneous
+    /// function and most of the work out of the loop.
+    Repeat,
+}
+
 /// Text after the variant's own: buffers, push constants and `main()`.
-pub(super) fn epilogue(signature: &Signature) -> String {
+pub(super) fn epilogue(signature: &Signature, main: Main) -> String {
+    let evaluations = if main == Main::Repeat { " uint rootq_evaluations;" } else { "" };
     let mut text = format!(
         "\nlayout(local_size_x = {LOCAL_SIZE}) in;\n\
          layout(std430, set = {COLUMNS_SET}, binding = {INPUTS_BINDING}) readonly buffer RootqInputs {{ float rootq_inputs[]; }};\n\
          layout(std430, set = {COLUMNS_SET}, binding = {OUTPUTS_BINDING}) writeonly buffer RootqOutputs {{ float rootq_outputs[]; }};\n\
-         layout(push_constant) uniform RootqRange {{ uint rootq_first; uint rootq_count; uint rootq_stride; }};\n\
+         layout(push_constant) uniform RootqRange {{ uint rootq_first; uint rootq_count; uint rootq_stride;{evaluations} }};\n\
          void main() {{\n\
          \x20   if (gl_GlobalInvocationID.x >= rootq_count) return;\n\
          \x20   uint i = rootq_first + gl_GlobalInvocationID.x;\n"
     );
     let mut column = 0;
-    let arguments: Vec<String> = signature
+    let loads: Vec<String> = signature
         .parameters
         .iter()
         .map(|parameter| {
@@ -100,21 +116,111 @@ pub(super) fn epilogue(signature: &Signature) -> String {
             format!("{}({})", parameter.ty.glsl(), loads.join(", "))
         })
         .collect();
-    _ = writeln!(text, "    {} r = {}(", signature.result_type(), signature.function);
-    _ = writeln!(text, "        {});", arguments.join(",\n        "));
-    let mut column = 0;
-    for field in &signature.results {
-        let value = if signature.results.len() == 1 { "r".to_owned() } else { format!("r.{}", field.name) };
-        for component in 0..field.ty.components() {
-            let component = match field.ty {
-                Type::Float => String::new(),
-                Type::Mat3 => format!("[{}][{}]", component / 3, component % 3),
-                Type::Vec2 | Type::Vec3 | Type::Vec4 => format!("[{component}]"),
-            };
-            _ = writeln!(text, "    rootq_outputs[{column}u * rootq_stride + i] = {value}{component};");
-            column += 1;
+    let (result, function) = (signature.result_type(), signature.function);
+    match main {
+        Main::Evaluate => {
+            _ = writeln!(text, "    {result} r = {function}(\n        {});", loads.join(",\n        "));
+        }
+        Main::Repeat => {
+            for (position, (parameter, load)) in signature.parameters.iter().zip(&loads).enumerate() {
+                _ = writeln!(text, "    {} a{position} = {load};", parameter.ty.glsl());
+            }
+            _ = write!(
+                text,
+                "    {result} r;\n    uint feedback = 0u;\n    for (uint k = 0u; k < rootq_evaluations; ++k) {{\n\
+                 \x20       float factor = uintBitsToFloat(0x3f800000u - (feedback & 1u));\n"
+            );
+            for (position, parameter) in signature.parameters.iter().enumerate() {
+                _ = writeln!(
+                    text,
+                    "        precise {} b{position} = a{position} * factor;",
+                    parameter.ty.glsl()
+                );
+            }
+            let arguments: Vec<String> =
+                (0..signature.parameters.len()).map(|position| format!("b{position}")).collect();
+            let bits: Vec<String> =
+                results(signature).iter().map(|value| format!("floatBitsToUint({value})")).collect();
+            _ = write!(
+                text,
+                "        r = {function}({});\n        feedback = {};\n    }}\n",
+                arguments.join(", "),
+                bits.join(" ^ ")
+            );
         }
     }
+    for (column, value) in results(signature).iter().enumerate() {
+        _ = writeln!(text, "    rootq_outputs[{column}u * rootq_stride + i] = {value};");
+    }
     text.push_str("}\n");
+    text
+}
+
+/// The components of the result `r`, in column order.
+fn results(signature: &Signature) -> Vec<String> {
+    let mut values = Vec::new();
+    for field in &signature.results {
+        let value = if signature.results.len() == 1 { "r".to_owned() } else { format!("r.{}", field.name) };
+        values.extend((0..field.ty.components()).map(|component| match field.ty {
+            Type::Float => value.clone(),
+            Type::Mat3 => format!("{value}[{}][{}]", component / 3, component % 3),
+            Type::Vec2 | Type::Vec3 | Type::Vec4 => format!("{value}[{component}]"),
+        }));
+    }
+    values
+}
+
+/// Columns that [`copy`] copies.
+pub(super) const COPIED_COLUMNS: usize = 8;
+
+/// A whole kernel that copies [`COPIED_COLUMNS`] columns without regard to which is which: four floats at once.
+pub(super) fn copy() -> String {
+    let mut text = format!(
+        "#version 450\n\
+         layout(local_size_x = {LOCAL_SIZE}) in;\n\
+         layout(std430, set = {COLUMNS_SET}, binding = {INPUTS_BINDING}) readonly buffer RootqInputs {{ vec4 rootq_inputs[]; }};\n\
+         layout(std430, set = {COLUMNS_SET}, binding = {OUTPUTS_BINDING}) writeonly buffer RootqOutputs {{ vec4 rootq_outputs[]; }};\n\
+         layout(push_constant) uniform RootqRange {{ uint rootq_first; uint rootq_count; uint rootq_stride; }};\n\
+         void main() {{\n\
+         \x20   if (gl_GlobalInvocationID.x >= rootq_count) return;\n\
+         \x20   uint i = rootq_first + gl_GlobalInvocationID.x;\n"
+    );
+    for part in 0..COPIED_COLUMNS / 4 {
+        let at = format!("{part}u * rootq_stride + i");
+        _ = writeln!(text, "    rootq_outputs[{at}] = rootq_inputs[{at}];");
+    }
+    text.push_str("}\n");
+    text
+}
+
+/// A function of `signature` that evaluates nothing: every result is an input's bits, or several inputs' together, so
+/// that all of them are loaded and all of the results stored. What it takes is what the harness takes.
+pub(super) fn null(signature: &Signature) -> String {
+    let inputs: Vec<String> = signature
+        .parameters
+        .iter()
+        .flat_map(|parameter| {
+            (0..parameter.ty.components()).map(move |component| match parameter.ty {
+                Type::Float => parameter.name.to_owned(),
+                Type::Mat3 => format!("{}[{}][{}]", parameter.name, component / 3, component % 3),
+                Type::Vec2 | Type::Vec3 | Type::Vec4 => format!("{}[{component}]", parameter.name),
+            })
+        })
+        .collect();
+    let mut text = format!("{} {{\n    {} r;\n", signature.declaration(), signature.result_type());
+    let results = results(signature);
+    for (position, result) in results.iter().enumerate() {
+        let mut bits: Vec<String> = inputs
+            .iter()
+            .skip(position)
+            .step_by(results.len())
+            .map(|input| format!("floatBitsToUint({input})"))
+            .collect();
+        if bits.is_empty() {
+            bits.push(format!("floatBitsToUint({})", inputs[position % inputs.len()]));
+        }
+        _ = writeln!(text, "    {result} = uintBitsToFloat({});", bits.join(" ^ "));
+    }
+    text.push_str("    return r;\n}\n");
     text
 }

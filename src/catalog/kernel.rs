@@ -22,7 +22,7 @@ pub const FIRST_TABLE_BINDING: u32 = 2;
 /// The kernel's invocations a workgroup, along x only.
 pub const LOCAL_SIZE: u32 = 64;
 
-/// The push constants, as three consecutive u32.
+/// The push constants, as four consecutive u32; a kernel that evaluates once need not declare the last.
 ///
 /// Invocation `g` evaluates configuration `first + g` if `g < count`.
 #[repr(C)]
@@ -34,13 +34,16 @@ pub struct Range {
     pub count: u32,
     /// Configurations between one column and the next, for inputs and outputs alike.
     pub stride: u32,
+    /// Evaluations a configuration, for kernels that loop to be timed.
+    pub evaluations: u32,
 }
 
 impl Range {
     /// The push-constant block's bytes.
-    pub fn bytes(&self) -> [u8; 12] {
-        let mut bytes = [0; 12];
-        for (slot, word) in bytes.chunks_exact_mut(4).zip([self.first, self.count, self.stride]) {
+    pub fn bytes(&self) -> [u8; 16] {
+        let mut bytes = [0; 16];
+        let words = [self.first, self.count, self.stride, self.evaluations];
+        for (slot, word) in bytes.chunks_exact_mut(4).zip(words) {
             slot.copy_from_slice(&word.to_ne_bytes());
         }
         bytes

@@ -7,6 +7,7 @@ mod front_matter;
 mod generate;
 mod glslang;
 pub mod kernel;
+mod operations;
 mod reflect;
 pub mod signature;
 mod table;
@@ -16,8 +17,11 @@ use std::path::Path;
 
 use include_dir::{Dir, include_dir};
 
+use generate::Main;
+
 pub use front_matter::{Declaration, Define, FrontMatter};
 pub use kernel::{Kernel, TableBinding, TableForm};
+pub use operations::Operations;
 pub use reflect::Facts;
 pub use signature::{Field, Signature, Type};
 pub use table::{Table, TableName, tables};
@@ -144,6 +148,39 @@ impl Variant {
 
     /// Compiles the variant as `signature`'s function; `debug_lines` keeps source lines in the module.
     pub fn compile(&self, signature: &Signature, debug_lines: bool) -> Result<Compiled, Error> {
+        self.compile_in(signature, debug_lines, Main::Evaluate)
+    }
+
+    /// Compiles the variant inside a loop, as many evaluations a configuration as its device is told
+    /// ([`Device::repeating`](crate::device::Device::repeating)), each with inputs that depend on the last one's results.
+    pub fn compile_repeating(&self, signature: &Signature) -> Result<Compiled, Error> {
+        self.compile_in(signature, false, Main::Repeat)
+    }
+
+    /// What both kernels are but for the evaluation: the harness's own part of a time.
+    pub fn null(signature: &Signature) -> Variant {
+        let summary = "no evaluation: loads, stores and, repeating, the loop";
+        Variant::generated(signature.function, "(null)", summary, generate::null(signature))
+    }
+
+    /// A variant that is in no file: `text` is a function of the signature it is going to be compiled with, and what
+    /// that needs.
+    pub fn generated(family: &str, name: &str, summary: &str, text: String) -> Variant {
+        Variant {
+            family: family.to_owned(),
+            name: name.to_owned(),
+            summary: summary.to_owned(),
+            source: "generated".to_owned(),
+            tried: None,
+            file: format!("{family}/{name}"),
+            defines: BTreeMap::new(),
+            tables: BTreeMap::new(),
+            precise: false,
+            text,
+        }
+    }
+
+    fn compile_in(&self, signature: &Signature, debug_lines: bool, main: Main) -> Result<Compiled, Error> {
         let tables = table::bindings(&self.tables);
         // The front matter is a GLSL comment, so the file's own line numbers hold.
         let text = format!(
@@ -152,7 +189,7 @@ impl Variant {
             generate::tables(&tables),
             self.file,
             self.text,
-            generate::epilogue(signature),
+            generate::epilogue(signature, main),
         );
         let includes = |name: &str, _includer: &str| {
             BUILT_IN.get_file(name).and_then(|file| file.contents_utf8()).map(str::to_owned)
@@ -188,6 +225,15 @@ impl Variant {
         }
         Error::Compile { id: self.id(), file, line, message: message.to_owned() }
     }
+}
+
+/// A kernel that copies its columns as fast as a device may: what bandwidth is measured with.
+pub fn copy_kernel() -> Result<Kernel, Error> {
+    let id = "ceiling/copy".to_owned();
+    let spirv = glslang::compile(&generate::copy(), &|_, _| None, false)
+        .map_err(|message| Error::Reflection { id: id.clone(), message })?;
+    let columns = generate::COPIED_COLUMNS;
+    Ok(Kernel { id, spirv, inputs: columns, outputs: columns, tables: Vec::new() })
 }
 
 /// Splits `file:line: message`, where the message may hold colons.
@@ -253,6 +299,20 @@ mod tests {
         assert_ne!(plain.sha256, exact.sha256);
     }
 
+    /// The loop's own arithmetic is the perturbation, uncontracted: one multiplication a parameter.
+    #[test]
+    fn a_timing_loop_repeats_the_same_arithmetic() {
+        let variants = variants(BODY);
+        let once = variants[0].compile(&signature(), false).unwrap().facts;
+        let repeated = variants[0].compile_repeating(&signature()).unwrap();
+        assert_eq!(repeated.facts.arithmetic, once.arithmetic + 2);
+        // glslang decorates the integer subtraction behind the factor, too.
+        assert_eq!(repeated.facts.no_contraction, 3);
+        let null = Variant::null(&signature());
+        assert_eq!(null.compile(&signature(), false).unwrap().facts.arithmetic, 0);
+        assert_eq!(null.compile_repeating(&signature()).unwrap().facts.arithmetic, 2);
+    }
+
     #[test]
     fn debug_lines_only_on_request() {
         let variant = &variants(BODY)[0];
@@ -305,7 +365,7 @@ mod tests {
                 "{}{}ScaledSum scaled_sum(mat3 m, vec3 v) {{\n    return ScaledSum(grey_at(v.xy) * v, quad_at(v.yz).w);\n}}\n{}",
                 generate::prologue(&signature(), [].into_iter()),
                 generate::tables(&[table("grey", 2, 1), table("quad", 3, 4)]),
-                generate::epilogue(&signature()),
+                generate::epilogue(&signature(), Main::Evaluate),
             );
             let spirv = glslang::compile(&text, &|_, _| None, false).unwrap();
             assert!(reflect::facts(&spirv).unwrap().words > 100);

@@ -8,6 +8,8 @@ use rspirv::spirv::{Decoration, ExecutionMode, GlslStd450Op, Op};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use super::operations::{self, Operations};
+
 /// What a module says of itself.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Facts {
@@ -21,6 +23,9 @@ pub struct Facts {
     /// Arithmetic instructions that may not be contracted or rearranged, and how many there are in all.
     pub no_contraction: usize,
     pub arithmetic: usize,
+    /// Operations of one evaluation, as far as the text tells.
+    #[serde(default)]
+    pub operations: Operations,
 }
 
 /// Reads the facts of a module that glslang made.
@@ -60,6 +65,7 @@ pub(super) fn facts(words: &[u32]) -> Result<Facts, String> {
         float_operations,
         no_contraction,
         arithmetic,
+        operations: operations::count(&module),
     })
 }
 

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use clap::Args;
 
-use crate::device::vulkan::{Instance, VulkanDevice};
+use crate::device::vulkan::{Instance, Options, VulkanDevice};
 
 /// Options that choose the device.
 #[derive(Args, Debug)]
@@ -24,9 +24,13 @@ pub(super) struct Machine {
 
 impl DeviceArguments {
     pub(super) fn open(&self) -> Result<Machine> {
+        self.open_with(Options::default())
+    }
+
+    pub(super) fn open_with(&self, options: Options) -> Result<Machine> {
         let instance = Instance::open(self.validation)?;
         let index = instance.choose(self.device.as_deref())?;
-        let device = VulkanDevice::open(&instance, index)?;
+        let device = VulkanDevice::open_with(&instance, index, options)?;
         Ok(Machine { instance, device })
     }
 }

@@ -1,17 +1,21 @@
 //! The command line: one verb a file. Only this module prints.
 //!
-//! Data goes to standard output, words to standard error. Exit status: 0 clean, 2 the call or the machine is at fault,
-//! with one line that says what and how to mend it; 130 interrupted.
+//! Data goes to standard output, words to standard error. Exit status: 0 clean, 1 a gate or a claim is violated, 2 the
+//! call or the machine is at fault, with one line that says what and how to mend it; 130 interrupted.
 
+mod compare;
 mod count;
 mod devices;
 mod draft;
 mod eval;
+mod exhaustive;
 mod fit;
 mod list;
 mod machine;
+mod pick;
 mod run;
 mod selection;
+mod timing;
 
 use std::io::IsTerminal;
 use std::process::ExitCode;
@@ -29,7 +33,8 @@ use clap::{Parser, Subcommand};
     version,
     max_term_width = 100,
     after_help = "Start with 'rootq devices' and 'rootq list'; then 'rootq run' does everything.\n\
-                  Exit status: 0 clean, 2 the call or the machine is at fault (one line says what), 130 interrupted."
+                  Exit status: 0 clean, 1 a gate or claim is violated, 2 the call or the machine is at fault\n\
+                  (one line says what), 130 interrupted."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -41,7 +46,9 @@ enum Verb {
     /// The Vulkan devices of this machine
     ///
     /// Lists every device the Vulkan loader finds, in the order of '--device' indices. VK_DRIVER_FILES chooses the
-    /// drivers, as for any Vulkan program; ROOTQ_VULKAN_LOADER names another loader library than the system's.
+    /// drivers, as for any Vulkan program; ROOTQ_VULKAN_LOADER names another loader library than the system's. With
+    /// --probe it says what each does: whether fma() is fused, subnormals are kept, how results are rounded, what NaN and
+    /// infinity do to comparisons, min and max, and how finely a sampler interpolates.
     Devices(devices::Arguments),
     /// Families, their columns and scenarios, and variants
     ///
@@ -58,13 +65,18 @@ enum Verb {
     /// Only the precision half of 'run'
     ///
     /// Runs variants over random configurations of each scenario and compares every result with the oracle. See 'rootq
-    /// run --help' for what it leaves.
+    /// run --help' for what it leaves. With --exhaustive, families of one input are audited on all 2^32 bit patterns of
+    /// it, in minutes; interrupted, the same command with the same --out goes on.
     Audit(run::Arguments),
     /// Only the throughput half of 'run'
     ///
-    /// Takes the time of variants by the device's own timestamps, one evaluation a configuration, inputs from memory
-    /// and outputs to it. Variants are interleaved; the table has the median and the quartiles of nanoseconds a
-    /// configuration.
+    /// Takes the time of variants by the device's own timestamps in two regimes. Streaming: one evaluation a
+    /// configuration, inputs from memory and outputs to it. Arithmetic: many evaluations in registers, each with inputs
+    /// perturbed by the last results, once with the same configuration throughout a workgroup (coherent) and once with
+    /// independent ones (divergent). Variants take turns, in changing order, until their ratios to a reference are known to
+    /// half a per cent or time is up. Each ranking holds its reference twice: what differs between the two is noise,
+    /// inside which no variant ranks before another. The table shows shares of what the device did at best in the same
+    /// run. Only a family's first scenario is timed, unless --scenario names others.
     Bench(run::Arguments),
     /// Evaluate your own configurations, by oracle and variants, CSV to CSV
     ///
@@ -73,6 +85,19 @@ enum Verb {
     /// with the columns oracle.<column> (17 digits) and <variant>.<column> (9 digits), which read back to the same
     /// bits. A mistake anywhere in the input leaves no output at all.
     Eval(eval::Arguments),
+    /// What changed between two recorded runs, row by row; with --gate, whether that is allowed
+    ///
+    /// Two runs of another driver, device, version or day: for each variant and scenario, whether accuracy and time (apart
+    /// from each other) got better, worse, stayed the same, or cannot be told, and on about how many configurations the
+    /// outputs' bits differ. Needs no device. Comparing a run with a repetition of itself reports no difference in at least
+    /// 95 of 100 cases.
+    Compare(compare::Arguments),
+    /// Which variant of a family to ship, from recorded runs
+    ///
+    /// Shows the front of accuracy against cost over one or several devices, the best variant first, and why each other
+    /// one was not chosen. Without a limit on errors or failures the fewest failures count before time; with one, the
+    /// fastest variant that keeps it. Needs no device. Exit status 1: no variant keeps the constraints.
+    Pick(pick::Arguments),
     /// Fit tables that shaders sample
     ///
     /// One material so far; 'rootq fit ggx --help' says what its table holds.
@@ -97,18 +122,24 @@ pub fn main() -> ExitCode {
         eprintln!("rootq: Ctrl-C will not clean up: {error}");
     }
     let result = match cli.verb {
-        Verb::Devices(arguments) => devices::devices(&arguments),
-        Verb::List(arguments) => list::list(&arguments),
-        Verb::Run(arguments) => run::run(&arguments, run::Halves::Both, &stop),
-        Verb::Audit(arguments) => run::run(&arguments, run::Halves::Audit, &stop),
-        Verb::Bench(arguments) => run::run(&arguments, run::Halves::Bench, &stop),
-        Verb::Eval(arguments) => eval::eval(&arguments, &stop),
-        Verb::Fit(arguments) => fit::fit(&arguments, &stop),
+        Verb::Devices(arguments) => devices::devices(&arguments).map(Outcome::from),
+        Verb::List(arguments) => list::list(&arguments).map(Outcome::from),
+        Verb::Run(arguments) => run::run(&arguments, run::Halves::Both, &stop).map(Outcome::from),
+        Verb::Audit(arguments) => run::run(&arguments, run::Halves::Audit, &stop).map(Outcome::from),
+        Verb::Bench(arguments) => run::run(&arguments, run::Halves::Bench, &stop).map(Outcome::from),
+        Verb::Eval(arguments) => eval::eval(&arguments, &stop).map(Outcome::from),
+        Verb::Compare(arguments) => compare::compare(&arguments),
+        Verb::Pick(arguments) => pick::pick(&arguments),
+        Verb::Fit(arguments) => fit::fit(&arguments, &stop).map(Outcome::from),
     };
     match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(_) if stop.load(Ordering::Relaxed) => {
-            eprintln!("rootq: interrupted; nothing was recorded");
+        Ok(Outcome::Clean) => ExitCode::SUCCESS,
+        Ok(Outcome::Violated) => VIOLATED.into(),
+        Err(error) if stop.load(Ordering::Relaxed) => {
+            match error.downcast_ref::<exhaustive::Kept>() {
+                Some(kept) => eprintln!("rootq: interrupted; {kept}"),
+                None => eprintln!("rootq: interrupted; nothing was recorded"),
+            }
             INTERRUPTED.into()
         }
         // A closed pipe is how the reader says that it has seen enough.
@@ -120,6 +151,21 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// How a verb that did its work ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    Clean,
+    /// A gate's rule is broken, or a claim does not hold.
+    Violated,
+}
+
+impl From<()> for Outcome {
+    fn from((): ()) -> Self {
+        Outcome::Clean
+    }
+}
+
+const VIOLATED: u8 = 1;
 const AT_FAULT: u8 = 2;
 const INTERRUPTED: u8 = 130;
 

@@ -11,12 +11,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::count;
 use super::machine::DeviceArguments;
 use super::selection::{self, Selected};
-use crate::audit::{self, Chunk, MAX_CHUNK, Plan};
-use crate::bench::{self, Effort};
-use crate::catalog::{self, Catalog, Compiled};
+use super::timing::{Depth, Timed, Timer, TimingArguments};
+use crate::audit::{self, MAX_CHUNK, Plan};
+use crate::bench::{Ceilings, Regime};
+use crate::catalog::{self, Catalog, Compiled, Variant};
 use crate::device::{self, Device, vulkan::VulkanDevice};
 use crate::family::Scenario;
-use crate::record::{self, FailureGroup, Folder};
+use crate::record::{self, Evidence, Folder};
 use crate::report;
 
 /// Which halves of a run a verb does.
@@ -32,14 +33,18 @@ pub(super) enum Halves {
 #[command(after_help = "Examples:\n  \
     rootq run                                         every built-in variant, every scenario\n  \
     rootq audit ellipse_axes --scenario aspect -n 4M  one family on one scenario\n  \
-    rootq bench 'ellipse_axes/cross*'                 times of some variants")]
+    rootq bench 'ellipse_axes/cross*'                 times of some variants\n  \
+    rootq bench ltc_line --reference heitz2017 --seconds 10\n  \
+    rootq audit sin/native --exhaustive --out sin     all 2^32 inputs; started again it goes on")]
 pub(super) struct Arguments {
     /// Variants: FAMILY, FAMILY/VARIANT or a glob such as 'ellipse_axes/cross*' [default: all]
     #[arg(value_name = "SELECT")]
-    select: Vec<String>,
+    pub(super) select: Vec<String>,
     /// Configurations a scenario; K, M and G are allowed
     #[arg(short = 'n', value_name = "COUNT", default_value = "1M", value_parser = count::parse, allow_hyphen_values = true)]
     configurations: u64,
+    #[command(flatten)]
+    pub(super) exhaustive: super::exhaustive::Options,
     /// Seed of the random configurations
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -47,52 +52,56 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "NAME")]
     scenario: Vec<String>,
     #[command(flatten)]
-    device: DeviceArguments,
+    pub(super) device: DeviceArguments,
     /// Run folder to write [default: bench_results/<device>/<date>-<commit>]
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
     /// Replace a run that --out holds already
     #[arg(long)]
-    force: bool,
+    pub(super) force: bool,
     /// Failures to keep a variant and scenario
     #[arg(long, value_name = "N", default_value_t = 100)]
-    max_failures: usize,
+    pub(super) max_failures: usize,
     /// Configurations a chunk, at most 2^20; changes no result
     #[arg(long, value_name = "COUNT", default_value = "1048576", value_parser = count::parse)]
-    chunk: u64,
+    pub(super) chunk: u64,
     /// Host threads for sampling, oracle and judge; changes no result [default: one a core]
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Seconds of timing a scenario, after a warm-up; at least 7 rounds over all variants are taken
-    #[arg(long, value_name = "S", default_value_t = 1.5)]
-    seconds: f64,
+    #[command(flatten)]
+    timing: TimingArguments,
 }
 
 /// Variants that are ready to run, and those that cannot here.
-struct Prepared {
-    record: record::Family,
-    selected: Selected,
+pub(super) struct Prepared {
+    pub(super) record: record::Family,
+    pub(super) selected: Selected,
     /// Programs, each with its variant's place in the record.
-    programs: Vec<<VulkanDevice as Device>::Program>,
-    places: Vec<usize>,
+    pub(super) programs: Vec<<VulkanDevice as Device>::Program>,
+    pub(super) places: Vec<usize>,
 }
 
 pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> Result<()> {
     let start = Instant::now();
     let started = jiff::Timestamp::now();
-    if !(arguments.seconds > 0.0 && arguments.seconds <= 86_400.0) {
-        bail!("--seconds must be above 0 and at most 86400");
-    }
+    arguments.timing.check()?;
     if let Some(threads) = arguments.threads {
         if !(1..=1024).contains(&threads) {
             bail!("--threads must be from 1 to 1024");
         }
         rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().context("--threads")?;
     }
+    if arguments.exhaustive.wanted() {
+        if halves != Halves::Audit {
+            bail!("only 'rootq audit' is exhaustive");
+        }
+        return super::exhaustive::audit(arguments, start, started, stop);
+    }
     let catalog = Catalog::embedded()?;
     let selected = selection::variants(&catalog, &arguments.select)?;
     selection::check_scenarios(&selected, &arguments.scenario)?;
-    let machine = arguments.device.open()?;
+    arguments.timing.check_reference(&selected)?;
+    let machine = arguments.device.open_with(arguments.timing.options())?;
     let facts = machine.device.facts().clone();
     let target = arguments.out.clone().unwrap_or_else(|| {
         let date = started.strftime("%Y-%m-%d").to_string();
@@ -105,17 +114,55 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         .into_iter()
         .map(|selected| prepare(selected, &machine.device))
         .collect::<Result<Vec<_>>>()?;
-    let mut groups = Vec::new();
+    let timer = match halves {
+        Halves::Audit => None,
+        Halves::Both => Some(Timer::new(&arguments.timing, &machine.device, Depth::Glance, stop)?),
+        Halves::Bench => Some(Timer::new(&arguments.timing, &machine.device, Depth::Study, stop)?),
+    };
+    let mut evidence = Vec::new();
     for family in &mut families {
         let scenarios = selection::scenarios(family.selected.problem, &arguments.scenario);
         for (position, scenario) in scenarios.into_iter().enumerate() {
-            // Streaming times hardly depend on the configurations: one scenario tells them.
-            let halves = if halves == Halves::Both && position > 0 { Halves::Audit } else { halves };
-            measure(family, scenario, &machine.device, arguments, halves, stop, &mut groups)?;
+            // Times hardly depend on the configurations: one scenario tells them, unless more are asked for.
+            let named = halves == Halves::Bench && !arguments.scenario.is_empty();
+            let timer = timer.as_ref().filter(|_| position == 0 || named);
+            if halves == Halves::Bench && timer.is_none() {
+                break;
+            }
+            let work = Work { audit: halves != Halves::Bench, timer };
+            measure(family, scenario, &machine.device, arguments, work, stop, &mut evidence)?;
         }
     }
     machine.check_validation()?;
 
+    let measured = Measured {
+        configurations: arguments.configurations,
+        device: facts,
+        ceilings: timer.map(|timer| timer.ceilings),
+        families: families.into_iter().map(|family| family.record).collect(),
+        evidence,
+    };
+    finish(arguments, (start, started), folder, measured)
+}
+
+/// What a run found.
+pub(super) struct Measured {
+    /// Configurations a scenario.
+    pub(super) configurations: u64,
+    pub(super) device: device::Facts,
+    pub(super) ceilings: Option<Ceilings>,
+    pub(super) families: Vec<record::Family>,
+    pub(super) evidence: Vec<Evidence>,
+}
+
+/// Writes the run's folder and shows its tables.
+pub(super) fn finish(
+    arguments: &Arguments,
+    (start, started): (Instant, jiff::Timestamp),
+    folder: Folder,
+    measured: Measured,
+) -> Result<()> {
+    let Measured { configurations, device, ceilings, families, evidence } = measured;
     let run = record::Run {
         schema: record::SCHEMA,
         program: program(),
@@ -127,22 +174,23 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
             arch: std::env::consts::ARCH.to_owned(),
             threads: rayon::current_num_threads(),
         },
-        device: facts,
+        device,
         settings: record::Settings {
             seed: arguments.seed,
-            configurations: arguments.configurations,
+            configurations,
             chunk: arguments.chunk.min(MAX_CHUNK as u64) as usize,
             max_failures: arguments.max_failures,
         },
-        families: families.into_iter().map(|family| family.record).collect(),
+        ceilings,
+        families,
     };
-    let folder = folder.finish(&run, &groups)?;
+    let folder = folder.finish(&run, &evidence)?;
     super::print(&report::run(&run, super::colour()))?;
     eprintln!("run folder: {} ({:.0} s)", folder.display(), run.seconds);
     Ok(())
 }
 
-fn program() -> record::Program {
+pub(super) fn program() -> record::Program {
     record::Program {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         revision: env!("ROOTQ_REVISION").to_owned(),
@@ -152,7 +200,7 @@ fn program() -> record::Program {
 }
 
 /// Compiles the selected variants; what the device lacks is recorded as a skip.
-fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
+pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
     let signature = selected.problem.signature();
     let mut record = record::family(selected.problem);
     let (mut programs, mut places) = (Vec::new(), Vec::new());
@@ -183,15 +231,22 @@ fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
     Ok(Prepared { record, selected, programs, places })
 }
 
+/// What is to be done on a scenario.
+#[derive(Clone, Copy)]
+struct Work<'a> {
+    audit: bool,
+    timer: Option<&'a Timer<'a>>,
+}
+
 /// One scenario of one family: audit, times, or both, into the family's record.
 fn measure(
     family: &mut Prepared,
     scenario: &'static Scenario,
     device: &VulkanDevice,
     arguments: &Arguments,
-    halves: Halves,
+    work: Work<'_>,
     stop: &AtomicBool,
-    groups: &mut Vec<FailureGroup>,
+    evidence: &mut Vec<Evidence>,
 ) -> Result<()> {
     let problem = family.selected.problem;
     let label = format!("{}/{}", problem.name(), scenario.name);
@@ -206,40 +261,54 @@ fn measure(
     let mut results: Vec<record::Result> = family
         .programs
         .iter()
-        .map(|_| record::Result { scenario: scenario.name.to_owned(), audit: None, timing: None })
+        .map(|_| record::Result {
+            scenario: scenario.name.to_owned(),
+            audit: None,
+            timing: None,
+            arithmetic: Vec::new(),
+        })
         .collect();
-    let mut oracle = None;
+    let (mut oracle, mut digest) = (None, None);
 
-    if halves != Halves::Bench {
+    if work.audit {
         let total = arguments.configurations * family.programs.len() as u64;
         let bar = bar(total, &format!("audit {label}"), "{human_pos} of {human_len}  {elapsed}, {eta} to go");
         let audited = audit::audit(device, &family.programs, &plan, &|count| bar.inc(count), stop)?;
         bar.finish_and_clear();
         oracle = Some(audited.oracle.into());
+        digest = Some(format!("{:016x}", audited.inputs));
         for ((result, summary), place) in results.iter_mut().zip(&audited.summaries).zip(&family.places) {
             result.audit = Some(record::audit(problem, summary));
-            groups.push(FailureGroup {
+            evidence.push(Evidence {
                 family: problem.name(),
                 variant: family.record.variants[*place].name.clone(),
                 scenario: scenario.name,
                 failures: summary.failures.sorted().into_iter().cloned().collect(),
+                bits: summary.bits.clone(),
             });
         }
     }
-    if halves != Halves::Audit {
-        let signature = problem.signature();
-        let (inputs, outputs) = (signature.input_columns().len(), signature.output_columns().len());
-        let rows = (arguments.configurations.min(bench::CONFIGURATIONS) as usize)
-            .min(device.max_rows(inputs, outputs));
-        let chunk = Chunk::draw(problem, scenario, arguments.seed, 0, rows);
-        let columns = device.upload(chunk.inputs(), inputs)?;
-        let effort = Effort { time: Duration::from_secs_f64(arguments.seconds), ..Effort::default() };
-        let bar = bar(0, &format!("bench {label}"), "{human_pos} samples {elapsed}");
-        let timings =
-            bench::streaming(device, &family.programs, &columns, rows, &effort, &|| bar.inc(1), stop)?;
-        bar.finish_and_clear();
-        for (result, timing) in results.iter_mut().zip(timings) {
-            result.timing = Some(timing);
+    let mut rankings = Vec::new();
+    if let Some(timer) = work.timer {
+        let variants: Vec<&Variant> =
+            family.places.iter().map(|place| &family.selected.variants[*place]).collect();
+        let facts = family.places.iter().map(|place| &family.record.variants[*place].spirv);
+        let timed = Timed {
+            problem,
+            scenario,
+            seed: arguments.seed,
+            operations: facts.map(|facts| facts.operations).collect(),
+            variants,
+            programs: &family.programs,
+        };
+        for (ranking, timings) in timer.time(&timed, device, stop)? {
+            for (result, timing) in results.iter_mut().zip(timings) {
+                match timing.setting.regime {
+                    Regime::Streaming => result.timing = Some(timing),
+                    Regime::Arithmetic => result.arithmetic.push(timing),
+                }
+            }
+            rankings.push(ranking);
         }
     }
 
@@ -249,7 +318,9 @@ fn measure(
     family.record.scenarios.push(record::Scenario {
         name: scenario.name.to_owned(),
         summary: scenario.summary.to_owned(),
+        inputs: digest,
         oracle,
+        rankings,
     });
     eprintln!("done: {label}");
     Ok(())

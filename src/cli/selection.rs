@@ -105,7 +105,7 @@ fn nothing_matches(catalog: &Catalog, pattern: &str) -> anyhow::Error {
 }
 
 /// "; did you mean 'x'?" for a near miss, else what there is, if that is short, or where to look.
-fn suggestion(wrong: &str, known: impl Iterator<Item = String>) -> String {
+pub(super) fn suggestion(wrong: &str, known: impl Iterator<Item = String>) -> String {
     let mut known: Vec<String> = known.collect();
     known.dedup();
     let nearest =

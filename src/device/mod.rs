@@ -33,6 +33,13 @@ pub trait Device: Sync {
     /// Makes a kernel ready. [`Error::NotSupported`] where it needs what the device lacks.
     fn program(&self, kernel: &Kernel) -> Result<Self::Program, Error>;
 
+    /// The program with its loop of a kernel made for timing run `evaluations` times a configuration; `None` if the device
+    /// cannot pass the number on.
+    fn repeating(&self, program: &Self::Program, evaluations: u32) -> Option<Self::Program> {
+        let _ = (program, evaluations);
+        None
+    }
+
     /// Copies `rows` (row-major, `columns` wide) into device columns.
     fn upload(&self, rows: &[f32], columns: usize) -> Result<Self::Inputs, Error>;
 

@@ -13,6 +13,7 @@ use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::clipped_ellipse::Cone;
 use crate::numeric::exact3;
+use crate::numeric::rotation::Rotation;
 use crate::numeric::spacing::UNIT_ROUNDOFF;
 use crate::numeric::twofold::Twofold;
 use crate::sample::{Draw, ggx};
@@ -178,55 +179,6 @@ impl Problem for LtcEllipsoid {
             of_minv + of_center + of_radius + rotation.sensitivity(exact3::symmetric(&solid) * by_own)
         };
         truth.scalar(0, light.value, light.bound, sensitivity);
-    }
-}
-
-/// The rotation of q/|q|, to 2^-98.
-struct Rotation {
-    columns: [exact3::Vector; 3],
-    vector: DVec3,
-    scalar: f64,
-}
-
-impl Rotation {
-    fn new(q: &[f32]) -> Self {
-        let largest = q.iter().fold(0.0f32, |largest, v| largest.max(v.abs()));
-        // A power of two, so that squares stay in range; q = 0 is the identity.
-        let scale = libm::ldexp(1.0, -libm::frexp(f64::from(largest)).1);
-        let [x, y, z, mut w] = std::array::from_fn(|i| f64::from(q[i]) * scale);
-        if largest == 0.0 {
-            w = 1.0;
-        }
-        let p = Twofold::product;
-        let norm = p(x, x) + p(y, y) + p(z, z) + p(w, w);
-        let twice = norm.recip() * 2.0;
-        let one = Twofold::from(1.0);
-        let diagonal = |a: f64, b: f64| one - (p(a, a) + p(b, b)) * twice;
-        let (plus, minus) = (
-            |a: f64, b: f64, v: f64| (p(a, b) + p(v, w)) * twice,
-            |a: f64, b: f64, v: f64| (p(a, b) - p(v, w)) * twice,
-        );
-        let columns = [
-            [diagonal(y, z), plus(x, y, z), minus(x, z, y)],
-            [minus(x, y, z), diagonal(x, z), plus(y, z, x)],
-            [plus(x, z, y), minus(y, z, x), diagonal(x, y)],
-        ];
-        Rotation { columns, vector: DVec3::new(x, y, z), scalar: w }
-    }
-
-    /// The sum over q's components of |q_i dE/dq_i| for `product` = R D^2 R^T G with G = dE/dS: a turn by the small
-    /// vector t changes E by the torque times t, and a change dq turns by 2 dq conj(q)/|q|^2.
-    fn sensitivity(&self, product: DMat3) -> f64 {
-        let at = |row: usize, column: usize| product.col(column)[row];
-        let torque = 2.0 * DVec3::new(at(1, 2) - at(2, 1), at(2, 0) - at(0, 2), at(0, 1) - at(1, 0));
-        let (v, w) = (self.vector, self.scalar);
-        let norm = v.length_squared() + w * w;
-        let of_axis = |axis: DVec3, q: f64| (q * torque.dot(2.0 * (w * axis - axis.cross(v)))).abs();
-        let sum = of_axis(DVec3::X, v.x)
-            + of_axis(DVec3::Y, v.y)
-            + of_axis(DVec3::Z, v.z)
-            + (w * torque.dot(2.0 * v)).abs();
-        sum / norm
     }
 }
 

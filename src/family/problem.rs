@@ -31,8 +31,27 @@ pub trait Problem: Sync {
 
     /// The exact result for these f32 bits, with certainty and conditioning, at most 2 us.
     ///
-    /// `input` has one value a column, all finite.
+    /// `input` has one value a column, all finite unless [`takes_all_bits`](Problem::takes_all_bits).
     fn oracle(&self, input: &[f32], truth: &mut Truth);
+
+    /// How far results are from the property that output `output` must have, a [`Quantity::Property`]; 0 where it holds
+    /// exactly. `values` are all results in column order, and not necessarily finite: then the answer may be NaN.
+    fn residual(&self, _output: usize, _input: &[f32], _values: &[f64]) -> f64 {
+        f64::NAN
+    }
+
+    /// Whether results, of a variant or exact ones, say that there is none, such as a ray's miss: by the values that the
+    /// family states for it. Hits and misses are two classes. Where truth and variant both miss there is nothing to
+    /// measure; where one does, either the oracle's [`Truth::margin`] explains it or the variant has `missed`.
+    fn is_miss(&self, _values: &[f64]) -> bool {
+        false
+    }
+
+    /// Whether the family has one input column and its oracle answers for every bit pattern of it, so that an audit can
+    /// be exhaustive.
+    fn takes_all_bits(&self) -> bool {
+        false
+    }
 
     /// The GLSL function's signature.
     fn signature(&self) -> Signature {
@@ -83,15 +102,32 @@ pub enum Quantity {
     Irradiance,
     /// A vector of irradiances, such as one edge's contribution: absolute error, as the distance of the two.
     VectorIrradiance,
+    /// A coordinate within -1..1, such as a place along a semi-axis: absolute error.
+    Coordinate,
+    /// A solid angle in steradians: relative error, within 0..4 pi.
+    SolidAngle,
+    /// A vector that has a length, such as a centre or a semi-axis: distance of the two over the truth's length. With
+    /// `sign_free`, both signs are right. Where the sensitivity is infinite only the direction is undefined, and the
+    /// lengths are compared.
+    Vector { sign_free: bool },
     /// A direction: angle between the two in radians, and a length of 1. With `sign_free`, both signs are right.
     UnitVector { sign_free: bool },
+    /// Whatever has a property together with the inputs and other results, such as a basis of a plane: absolute, the
+    /// largest residual of what must hold, by [`Problem::residual`]. The oracle's values are one right answer of many, and
+    /// its sensitivity is the residual that a change of the inputs alone makes of them.
+    Property,
+    /// What one of the device's own instructions returns: the error, of a vector its length, over what the Vulkan
+    /// specification permits for these very inputs. The tolerance is 1.
+    Builtin,
 }
 
-/// What must hold between results, whatever the truth.
+/// What must hold of several results together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
     /// Two unit vectors, by position among the outputs, are orthogonal.
     Orthogonal(usize, usize),
+    /// Two corners of a box, by position among the outputs, enclose the exact box that lies between their truths.
+    Encloses { min: usize, max: usize },
 }
 
 /// A named distribution of configurations.
@@ -136,6 +172,7 @@ pub struct Truth {
     values: [f64; MAX_COMPONENTS],
     sensitivities: [f64; MAX_OUTPUTS],
     worst_bound: f64,
+    margin: f64,
     escalated: bool,
 }
 
@@ -152,6 +189,7 @@ impl Truth {
             values: [0.0; MAX_COMPONENTS],
             sensitivities: [0.0; MAX_OUTPUTS],
             worst_bound: 0.0,
+            margin: f64::INFINITY,
             escalated: false,
         }
     }
@@ -159,6 +197,7 @@ impl Truth {
     /// Forgets the last configuration.
     pub fn clear(&mut self) {
         self.worst_bound = 0.0;
+        self.margin = f64::INFINITY;
         self.escalated = false;
     }
 
@@ -167,7 +206,7 @@ impl Truth {
     pub fn scalar(&mut self, output: usize, value: f64, bound: f64, sensitivity: f64) {
         self.values[self.offset(output)] = value;
         self.sensitivities[output] = sensitivity;
-        self.worst_bound = self.worst_bound.max(bound / f32_spacing(value));
+        self.certify(value, bound / f32_spacing(value));
     }
 
     /// Sets a vector that has a length. `bound` is the absolute error bound of `value` as the distance of the two, counted
@@ -178,7 +217,7 @@ impl Truth {
         self.values[offset..offset + 3].copy_from_slice(&value.to_array());
         self.sensitivities[output] = sensitivity;
         if sensitivity.is_finite() {
-            self.worst_bound = self.worst_bound.max(bound / f32_spacing(value.length()));
+            self.certify(value.length(), bound / f32_spacing(value.length()));
         }
     }
 
@@ -189,8 +228,36 @@ impl Truth {
         self.values[offset..offset + 3].copy_from_slice(&value.to_array());
         self.sensitivities[output] = sensitivity;
         if sensitivity.is_finite() {
-            self.worst_bound = self.worst_bound.max(bound / UNIT_ROUNDOFF);
+            self.certify(value.length(), bound / UNIT_ROUNDOFF);
         }
+    }
+
+    /// A value or a bound that is not a number certifies nothing.
+    fn certify(&mut self, value: f64, bound: f64) {
+        let bound = if value.is_nan() || bound.is_nan() { f64::INFINITY } else { bound };
+        self.worst_bound = self.worst_bound.max(bound);
+    }
+
+    /// Sets how far the configuration is from the other class, a hit from a miss: the least relative change of every
+    /// input (to first order, in the worst direction) that turns one into the other. Infinite unless set.
+    pub fn set_margin(&mut self, margin: f64) {
+        self.margin = margin;
+    }
+
+    /// The least relative change of every input that turns a hit into a miss or a miss into a hit.
+    pub fn margin(&self) -> f64 {
+        self.margin
+    }
+
+    /// Sets what a builtin returns, one value a component. `bound` is the absolute error bound of each; `limit` what the
+    /// Vulkan specification permits as the length of the error, infinite where it promises nothing: the value may then
+    /// be NaN. The limit takes the place of a sensitivity.
+    pub fn builtin(&mut self, output: usize, value: &[f64], bound: f64, limit: f64) {
+        let offset = self.offset(output);
+        self.values[offset..offset + value.len()].copy_from_slice(value);
+        self.sensitivities[output] = limit;
+        let largest = value.iter().fold(0.0, |largest: f64, component| largest.max(component.abs()));
+        self.worst_bound = self.worst_bound.max(bound / f32_spacing(largest));
     }
 
     /// Notes that plain f64 did not do.
@@ -218,7 +285,7 @@ impl Truth {
         &self.values[self.offset(output)..][..self.components[output]]
     }
 
-    /// Sensitivities, one an output.
+    /// Sensitivities, one an output; of a [`Quantity::Builtin`] the permitted error.
     pub fn sensitivities(&self) -> &[f64] {
         &self.sensitivities[..self.outputs]
     }
@@ -230,3 +297,22 @@ impl Truth {
 
 /// An oracle is certified where its bound is at most this much of the f32 spacing.
 pub const CERTIFIED: f64 = 1.0 / 16.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `f64::max` would drop NaN silently.
+    #[test]
+    fn what_is_not_a_number_is_not_certified() {
+        const OUTPUTS: [Output; 1] = [Output::new("x", Type::Float, Quantity::Scalar, 1e-3)];
+        let bound = |value, bound| {
+            let mut truth = Truth::new(&OUTPUTS);
+            truth.scalar(0, value, bound, 1.0);
+            truth.worst_bound()
+        };
+        assert!(bound(1.0, 1e-12) <= CERTIFIED);
+        assert!(bound(f64::NAN, 0.0) > CERTIFIED);
+        assert!(bound(1.0, f64::NAN) > CERTIFIED);
+    }
+}

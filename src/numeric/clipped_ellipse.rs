@@ -65,13 +65,13 @@ impl Irradiance {
 }
 
 /// The principal frame: eigenvalues, and the heights of the axes.
-struct Principal {
-    e1: f64,
-    e3: f64,
-    l: f64,
+pub(super) struct Principal {
+    pub(super) e1: f64,
+    pub(super) e3: f64,
+    pub(super) l: f64,
     /// (l + e1)(l + e3).
-    gap: f64,
-    axes: DMat3,
+    pub(super) gap: f64,
+    pub(super) axes: DMat3,
 }
 
 impl Cone {
@@ -92,7 +92,7 @@ impl Cone {
         principal.clipped(self.dual[2].value())
     }
 
-    fn principal(&self) -> Principal {
+    pub(super) fn principal(&self) -> Principal {
         let [xx, yy, zz, xy, xz, yz] = self.dual;
         let c2 = xx + yy + zz;
         let c1 = (xx * yy - xy * xy) + (xx * zz - xz * xz) + (yy * zz - yz * yz);

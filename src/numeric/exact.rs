@@ -5,7 +5,7 @@
 /// Shewchuk's growing expansion of non-overlapping partial sums (Discrete Comput. Geom. 18, 1997), with the final
 /// rounding corrected for ties. The terms and their sums must stay finite.
 pub fn sum(terms: &[f64]) -> f64 {
-    let mut partials = [0.0f64; 16];
+    let mut partials = [0.0f64; 24];
     let mut used = 0;
     for &term in terms {
         let mut carried = term;

@@ -72,6 +72,28 @@ pub fn dot(a: DVec3, v: &Pairs) -> f64 {
     exact::sum(&terms)
 }
 
+/// a - b, exactly.
+pub fn difference(a: DVec3, b: DVec3) -> Pairs {
+    [two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)]
+}
+
+/// a . b for exact vectors: off by 2^-53 of itself and 2^-104 of its largest term, and only by the former where one of
+/// the two has no second parts.
+pub fn dot_exact(a: &Pairs, b: &Pairs) -> f64 {
+    let mut terms = [0.0; 18];
+    let mut used = 0;
+    for ((high, low), (factor, small)) in a.iter().zip(b) {
+        for (p, q) in [(high, factor), (high, small), (low, factor)] {
+            if *p != 0.0 && *q != 0.0 {
+                let product = p * q;
+                terms[used..used + 2].copy_from_slice(&[product, p.mul_add(*q, -product)]);
+                used += 2;
+            }
+        }
+    }
+    exact::sum(&terms[..used])
+}
+
 /// The determinant of a matrix of f32 values, rounded once.
 pub fn determinant(m: &DMat3) -> f64 {
     dot(m.x_axis, &cross(m.y_axis, m.z_axis))

@@ -16,13 +16,13 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
-use super::{Error, FailureGroup};
+use super::{Error, Evidence};
 use crate::audit::Failure;
 use crate::family;
 
 /// A column's name and its value in a row, if the row has one.
 enum Column {
-    Text(&'static str, fn(&FailureGroup, &Failure) -> String),
+    Text(&'static str, fn(&Evidence, &Failure) -> String),
     Index,
     Single(String, &'static str, fn(&Failure) -> &[f32], usize),
     Double(String, &'static str, fn(&Failure) -> &[f64], usize),
@@ -47,13 +47,12 @@ impl Column {
         .build()
     }
 
-    fn write(&self, writer: &mut ColumnWriter<'_>, groups: &[FailureGroup]) -> Result<(), ParquetError> {
-        let rows =
-            || groups.iter().flat_map(|group| group.failures.iter().map(move |failure| (group, failure)));
+    fn write(&self, writer: &mut ColumnWriter<'_>, evidence: &[Evidence]) -> Result<(), ParquetError> {
+        let rows = || evidence.iter().flat_map(|one| one.failures.iter().map(move |failure| (one, failure)));
         match (self, writer) {
             (Column::Text(_, text), ColumnWriter::ByteArrayColumnWriter(writer)) => {
                 let values: Vec<ByteArray> =
-                    rows().map(|(group, failure)| text(group, failure).into_bytes().into()).collect();
+                    rows().map(|(one, failure)| text(one, failure).into_bytes().into()).collect();
                 writer.write_batch(&values, None, None)?;
             }
             (Column::Index, ColumnWriter::Int64ColumnWriter(writer)) => {
@@ -62,12 +61,12 @@ impl Column {
             }
             (Column::Single(_, family, of, at), ColumnWriter::FloatColumnWriter(writer)) => {
                 let (values, levels) =
-                    optional(rows().map(|(group, f)| (group.family == *family).then(|| of(f)[*at])));
+                    optional(rows().map(|(one, f)| (one.family == *family).then(|| of(f)[*at])));
                 writer.write_batch(&values, Some(&levels), None)?;
             }
             (Column::Double(_, family, of, at), ColumnWriter::DoubleColumnWriter(writer)) => {
                 let (values, levels) =
-                    optional(rows().map(|(group, f)| (group.family == *family).then(|| of(f)[*at])));
+                    optional(rows().map(|(one, f)| (one.family == *family).then(|| of(f)[*at])));
                 writer.write_batch(&values, Some(&levels), None)?;
             }
             _ => {
@@ -92,15 +91,15 @@ fn optional<T>(cells: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
     (values, levels)
 }
 
-/// Writes all groups to a new file at `path`.
-pub(super) fn write(path: &Path, groups: &[FailureGroup]) -> Result<(), Error> {
+/// Writes all evidence to a new file at `path`.
+pub(super) fn write(path: &Path, evidence: &[Evidence]) -> Result<(), Error> {
     let file =
         File::create(path).map_err(|source| Error::Io { action: "write", path: path.to_owned(), source })?;
-    write_to(file, groups).map_err(|source| Error::Parquet { path: path.to_owned(), source })
+    write_to(file, evidence).map_err(|source| Error::Parquet { path: path.to_owned(), source })
 }
 
-fn write_to(file: File, groups: &[FailureGroup]) -> Result<(), ParquetError> {
-    let columns = columns(groups);
+fn write_to(file: File, evidence: &[Evidence]) -> Result<(), ParquetError> {
+    let columns = columns(evidence);
     let fields = columns.iter().map(|column| column.schema().map(Arc::new)).collect::<Result<_, _>>()?;
     let schema = Arc::new(Type::group_type_builder("failure").with_fields(fields).build()?);
     let properties = Arc::new(WriterProperties::builder().set_compression(Compression::SNAPPY).build());
@@ -110,7 +109,7 @@ fn write_to(file: File, groups: &[FailureGroup]) -> Result<(), ParquetError> {
         let Some(mut writer) = rows.next_column()? else {
             return Err(ParquetError::General("fewer columns than declared".to_owned()));
         };
-        column.write(writer.untyped(), groups)?;
+        column.write(writer.untyped(), evidence)?;
         writer.close()?;
     }
     rows.close()?;
@@ -118,15 +117,15 @@ fn write_to(file: File, groups: &[FailureGroup]) -> Result<(), ParquetError> {
     Ok(())
 }
 
-fn columns(groups: &[FailureGroup]) -> Vec<Column> {
+fn columns(evidence: &[Evidence]) -> Vec<Column> {
     let mut columns = vec![
-        Column::Text("family", |group, _| group.family.to_owned()),
-        Column::Text("variant", |group, _| group.variant.clone()),
-        Column::Text("scenario", |group, _| group.scenario.to_owned()),
+        Column::Text("family", |one, _| one.family.to_owned()),
+        Column::Text("variant", |one, _| one.variant.clone()),
+        Column::Text("scenario", |one, _| one.scenario.to_owned()),
         Column::Index,
         Column::Text("verdict", |_, failure| failure.verdict.name().to_owned()),
     ];
-    let mut families: Vec<&'static str> = groups.iter().map(|group| group.family).collect();
+    let mut families: Vec<&'static str> = evidence.iter().map(|one| one.family).collect();
     families.sort_unstable();
     families.dedup();
     // Several families may share a column's name; with more than one in the file the family's name goes before it.

@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use super::{Error, FailureGroup, Run, failures};
+use super::bits::{self, Bits};
+use super::{Error, Evidence, Run, SCHEMA, failures};
 
 const RUN: &str = "run.json";
 const FAILURES: &str = "failures.parquet";
+const BITS: &str = "bits.parquet";
 
 /// A folder being written.
 #[derive(Debug)]
@@ -16,6 +18,8 @@ pub struct Folder {
     target: PathBuf,
     draft: TempDir,
     replace: bool,
+    /// A file in the target that ends with the run.
+    journal: Option<&'static str>,
 }
 
 impl Folder {
@@ -31,6 +35,20 @@ impl Folder {
         } else if target.exists() {
             return Err(io("use as a folder", std::io::ErrorKind::NotADirectory.into()));
         }
+        Self::beside(target, replace, None)
+    }
+
+    /// As [`create`](Self::create), for a run that keeps the file `journal` in its target until it is finished: a folder
+    /// that holds one is a run to go on with.
+    pub fn resume(target: &Path, replace: bool, journal: &'static str) -> Result<Folder, Error> {
+        if target.join(journal).is_file() {
+            return Self::beside(target, replace, Some(journal));
+        }
+        Ok(Folder { journal: Some(journal), ..Self::create(target, replace)? })
+    }
+
+    fn beside(target: &Path, replace: bool, journal: Option<&'static str>) -> Result<Folder, Error> {
+        let io = |action, source| Error::Io { action, path: target.to_owned(), source };
         let parent = match target.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
@@ -40,11 +58,11 @@ impl Folder {
             .prefix(".rootq-")
             .tempdir_in(parent)
             .map_err(|source| io("write to", source))?;
-        Ok(Folder { target: target.to_owned(), draft, replace })
+        Ok(Folder { target: target.to_owned(), draft, replace, journal })
     }
 
     /// Writes the record and moves the folder into place; returns where that is.
-    pub fn finish(self, run: &Run, groups: &[FailureGroup]) -> Result<PathBuf, Error> {
+    pub fn finish(self, run: &Run, evidence: &[Evidence]) -> Result<PathBuf, Error> {
         let path = self.draft.path().join(RUN);
         let io = |action, path: &Path| {
             let path = path.to_owned();
@@ -54,8 +72,12 @@ impl Folder {
             serde_json::to_string(run).map_err(|source| Error::Json { path: path.clone(), source })?;
         text.push('\n');
         fs::write(&path, text).map_err(io("write", &path))?;
-        failures::write(&self.draft.path().join(FAILURES), groups)?;
+        failures::write(&self.draft.path().join(FAILURES), evidence)?;
+        bits::write(&self.draft.path().join(BITS), evidence)?;
 
+        if let Some(journal) = self.journal.map(|name| self.target.join(name)).filter(|path| path.is_file()) {
+            fs::remove_file(&journal).map_err(io("remove", &journal))?;
+        }
         if self.replace && self.target.join(RUN).is_file() {
             fs::remove_dir_all(&self.target).map_err(io("replace", &self.target))?;
         } else if self.target.is_dir() {
@@ -66,6 +88,43 @@ impl Folder {
         open_permissions(&self.target);
         Ok(self.target)
     }
+}
+
+/// A run read back.
+#[derive(Debug)]
+pub struct Recorded {
+    /// As it was named.
+    pub path: PathBuf,
+    pub run: Run,
+    /// Empty in runs of versions that did not keep them, and where nothing was audited.
+    pub bits: Bits,
+}
+
+/// Reads the run in folder `path`.
+pub fn read(path: &Path) -> Result<Recorded, Error> {
+    let file = path.join(RUN);
+    let text = match fs::read(&file) {
+        Ok(text) => text,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            return Err(Error::NoRun { path: path.to_owned() });
+        }
+        Err(source) => return Err(Error::Io { action: "read", path: file, source }),
+    };
+    let unreadable = |message| Error::Unreadable { path: path.to_owned(), message };
+    /// Only the version, so that a newer schema is told apart from a broken file.
+    #[derive(serde::Deserialize)]
+    struct Version {
+        schema: u32,
+    }
+    let version: Version = serde_json::from_slice(&text).map_err(|error| unreadable(error.to_string()))?;
+    if version.schema > SCHEMA {
+        let newer =
+            format!("its schema is {}, this version knows {SCHEMA}; use a newer rootq", version.schema);
+        return Err(unreadable(newer));
+    }
+    let run = serde_json::from_slice(&text).map_err(|error| unreadable(error.to_string()))?;
+    let bits = bits::read(&path.join(BITS)).map_err(|error| unreadable(error.to_string()))?;
+    Ok(Recorded { path: path.to_owned(), run, bits })
 }
 
 /// Temporary folders are private; a finished run is as readable as any other folder.

@@ -1,6 +1,7 @@
 //! What a run leaves behind: a versioned `run.json`, `failures.parquet`, and the folder that holds them; and the CSV
 //! in which users hand over configurations.
 
+mod bits;
 pub mod configurations;
 mod failures;
 mod folder;
@@ -10,21 +11,25 @@ mod summarize;
 
 use std::path::PathBuf;
 
-pub use folder::{Folder, default_path};
+use crate::audit::{Failure, Fingerprint};
+
+pub use bits::Bits;
+pub use folder::{Folder, Recorded, default_path, read};
 pub use number::parse_f32;
 pub use schema::{
-    Audit, Bin, Buckets, Distribution, Family, Host, Landmark, Oracle, Output, OutputAudit, Program, Rate,
-    Result, Run, SCHEMA, Scenario, Settings, Variant, Visible, Worst,
+    Audit, Bin, Buckets, Distribution, Extremes, Family, Host, Landmark, Oracle, Output, OutputAudit,
+    Program, Rate, Result, Run, SCHEMA, Scenario, Settings, Specimen, Variant, Visible, Worst,
 };
 pub use summarize::{audit, family};
 
-/// One variant's failures on one scenario, for the Parquet file.
+/// What one variant left on one scenario beside its summary.
 #[derive(Clone, Debug)]
-pub struct FailureGroup {
+pub struct Evidence {
     pub family: &'static str,
     pub variant: String,
     pub scenario: &'static str,
-    pub failures: Vec<crate::audit::Failure>,
+    pub failures: Vec<Failure>,
+    pub bits: Fingerprint,
 }
 
 /// Why a record could not be written or read.
@@ -38,6 +43,10 @@ pub enum Error {
     Json { path: PathBuf, source: serde_json::Error },
     #[error("cannot write {}", path.display())]
     Parquet { path: PathBuf, source: parquet::errors::ParquetError },
+    #[error("{} holds no run (no run.json)", path.display())]
+    NoRun { path: PathBuf },
+    #[error("{} is not a run that this rootq reads: {message}", path.display())]
+    Unreadable { path: PathBuf, message: String },
     /// The user's table is at fault; `place` is `FILE` or `FILE:LINE`.
     #[error("{place}: {message}")]
     Table { place: String, message: String },

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::audit::Verdict;
-use crate::bench::Timing;
+use crate::bench::{Ceilings, Ranking, Setting, Timing};
 use crate::{catalog, device};
 
 /// Version of this schema.
@@ -27,6 +27,9 @@ pub struct Run {
     pub host: Host,
     pub device: device::Facts,
     pub settings: Settings,
+    /// Absent if no times were taken, or by a version that did not measure them.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub ceilings: Option<Ceilings>,
     pub families: Vec<Family>,
 }
 
@@ -74,8 +77,9 @@ pub struct Family {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Output {
     pub name: String,
-    /// How its error is measured: `magnitude` and `scalar` (relative), `unit_vector` (radians), `irradiance` and
-    /// `vector_irradiance` (absolute, the full hemisphere being 1).
+    /// How its error is measured: `magnitude`, `scalar`, `solid_angle` and `vector` (relative), `unit_vector` (radians),
+    /// `irradiance` and `vector_irradiance` (absolute, the full hemisphere being 1), `coordinate` (absolute), `property`
+    /// (the largest residual of what must hold), `builtin` (a share of the permitted error).
     pub quantity: String,
     pub tolerance: f64,
     pub headline: bool,
@@ -93,8 +97,21 @@ pub struct Landmark {
 pub struct Scenario {
     pub name: String,
     pub summary: String,
+    /// Digest of all configurations' bits, in hexadecimal: where two runs agree in it, they had the same configurations.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub inputs: Option<String>,
     /// Absent if only times were taken.
     pub oracle: Option<Oracle>,
+    /// One a setting in which times were taken: what its timings have in common.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub rankings: Vec<Ranking>,
+}
+
+impl Scenario {
+    /// The ranking of that setting, if times were taken in it.
+    pub fn ranking(&self, setting: Setting) -> Option<&Ranking> {
+        self.rankings.iter().find(|ranking| ranking.setting == setting)
+    }
 }
 
 /// The oracle's own certainty.
@@ -136,6 +153,21 @@ pub struct Result {
     pub audit: Option<Audit>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub timing: Option<Timing>,
+    /// Times in the arithmetic regime; `timing` is the streaming one.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub arithmetic: Vec<Timing>,
+}
+
+impl Result {
+    /// All times, whatever the regime.
+    pub fn timings(&self) -> impl Iterator<Item = &Timing> {
+        self.timing.iter().chain(&self.arithmetic)
+    }
+
+    /// The time in that setting, if it was taken.
+    pub fn timing_in(&self, setting: Setting) -> Option<&Timing> {
+        self.timings().find(|timing| timing.setting == setting)
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -163,10 +195,11 @@ pub struct Rate {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OutputAudit {
     pub name: String,
-    /// Error beyond the tolerance or not finite, whoever is to blame.
+    /// Error beyond the tolerance, not finite, or not to be had because only one of truth and variant is a miss; whoever
+    /// is to blame.
     pub beyond: Rate,
     pub visible: Visible,
-    /// In the quantity's own measure.
+    /// In the quantity's own measure; of the configurations where neither truth nor variant is a miss, as all that follow.
     pub error: Distribution,
     /// Units of the f32 spacing at the unrounded truth.
     pub ulp: Distribution,
@@ -174,6 +207,34 @@ pub struct OutputAudit {
     pub conditioned: Distribution,
     /// The worst finite error.
     pub worst: Option<Worst>,
+    /// Of a builtin: the worst configurations themselves.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub extremes: Option<Extremes>,
+}
+
+/// The worst finite errors of a builtin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Extremes {
+    /// In units in the last place, where the specification promises anything.
+    pub ulp: Option<Specimen>,
+    /// As a share of the permitted error.
+    pub share: Option<Specimen>,
+    /// Absolute or relative, whichever is less, where the specification promises nothing.
+    pub unspecified: Option<Specimen>,
+}
+
+/// One configuration and what came of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Specimen {
+    /// The error, as the field says that holds it.
+    pub size: f64,
+    pub index: u64,
+    /// In the order of input columns.
+    pub inputs: Vec<f32>,
+    pub output: Vec<Option<f32>>,
+    pub truth: Vec<f64>,
+    /// The permitted error; `null` where nothing is promised.
+    pub limit: Option<f64>,
 }
 
 /// Configurations whose error is at least one step of a display or frame buffer.
@@ -217,4 +278,28 @@ pub struct Bin {
     pub verdicts: BTreeMap<Verdict, u64>,
     /// One an output.
     pub beyond: Vec<u64>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::Coherence;
+
+    /// A timing as version 1 of the schema first had it.
+    #[test]
+    fn times_of_earlier_records_are_streaming() {
+        let earlier = r#"{"scenario": "scene", "timing": {"ns": {"lower": 1.0, "median": 2.0, "upper": 3.0},
+            "clock": "device_timestamps", "rounds": 7, "configurations": 262144, "repeats": 1}}"#;
+        let result: Result = serde_json::from_str(earlier).unwrap();
+        let timing = result.timing_in(Setting::STREAMING).unwrap();
+        assert_eq!((timing.ns.median, timing.evaluations, timing.rank), (2.0, 1, None));
+        assert_eq!(result.timing_in(Setting::DIVERGENT), None);
+    }
+
+    #[test]
+    fn a_timing_keeps_its_setting() {
+        let written = serde_json::to_value(Setting::COHERENT).unwrap();
+        assert_eq!(written, serde_json::json!({"regime": "arithmetic", "inputs": "coherent"}));
+        assert_eq!(serde_json::from_value::<Setting>(written).unwrap().inputs, Coherence::Coherent);
+    }
 }

@@ -1,7 +1,7 @@
 //! From the audit's summaries to the record's words.
 
 use super::schema;
-use crate::audit::{Histogram, OracleSummary, OutputSummary, Summary, Verdict};
+use crate::audit::{Extremes, Histogram, OracleSummary, OutputSummary, Specimen, Summary, Verdict};
 use crate::bench::rate_interval;
 use crate::family::{Problem, Quantity};
 
@@ -86,6 +86,22 @@ fn output_audit(name: &str, summary: &OutputSummary, total: u64) -> schema::Outp
             index,
             ulp: summary.worst.ulp,
         }),
+        extremes: (summary.extremes != Extremes::default()).then(|| schema::Extremes {
+            ulp: summary.extremes.ulp.as_ref().map(specimen),
+            share: summary.extremes.share.as_ref().map(specimen),
+            unspecified: summary.extremes.unspecified.as_ref().map(specimen),
+        }),
+    }
+}
+
+fn specimen(specimen: &Specimen) -> schema::Specimen {
+    schema::Specimen {
+        size: specimen.size,
+        index: specimen.index,
+        inputs: specimen.inputs.clone(),
+        output: specimen.output.iter().map(|value| Some(*value).filter(|value| value.is_finite())).collect(),
+        truth: specimen.truth.clone(),
+        limit: Some(specimen.limit).filter(|limit| limit.is_finite()),
     }
 }
 
@@ -114,7 +130,12 @@ fn quantity(quantity: Quantity) -> &'static str {
         Quantity::Scalar => "scalar",
         Quantity::Irradiance => "irradiance",
         Quantity::VectorIrradiance => "vector_irradiance",
+        Quantity::Coordinate => "coordinate",
+        Quantity::SolidAngle => "solid_angle",
+        Quantity::Vector { .. } => "vector",
         Quantity::UnitVector { .. } => "unit_vector",
+        Quantity::Property => "property",
+        Quantity::Builtin => "builtin",
     }
 }
 

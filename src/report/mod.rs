@@ -1,6 +1,14 @@
 //! Tables for the terminal, made from a record alone: what is shown can be shown again from `run.json`.
 
+mod builtin;
+mod compare;
 mod numbers;
+mod pick;
+mod probe;
 mod table;
+mod timing;
 
+pub use compare::{Form, compare, github};
+pub use pick::pick;
+pub use probe::probes;
 pub use table::{devices, run};

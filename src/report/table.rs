@@ -5,10 +5,11 @@ use std::fmt::Write;
 use comfy_table::presets::NOTHING;
 use comfy_table::{Attribute, Cell, CellAlignment, Color, ContentArrangement, Table};
 
+use super::builtin;
 use super::numbers::{percent, short};
+use super::timing;
 use crate::audit::Verdict;
-use crate::bench::Timing;
-use crate::device::{Clock, Facts};
+use crate::device::Facts;
 use crate::record::{Audit, Family, Rate, Result, Run, Variant};
 
 /// Devices, one a row.
@@ -39,11 +40,11 @@ pub fn run(run: &Run, colour: bool) -> String {
         if family.scenarios.len() > 1 {
             let first = &family.scenarios[0].name;
             let audited = has(family, |result| result.audit.is_some());
-            let timed = has(family, |result| result.timing.is_some());
+            let timed = has(family, |result| result.timings().next().is_some());
             let shown = match (audited, timed) {
-                (true, true) => format!("failed, by scenario, and median ns a configuration on '{first}'"),
+                (true, true) => format!("failed, by scenario, and times on '{first}'"),
                 (true, false) => "failed, by scenario".to_owned(),
-                _ => format!("median ns a configuration on '{first}'"),
+                _ => format!("times on '{first}'"),
             };
             _ = writeln!(text, "\n{}: {shown}", family.name);
             text.push_str(&overview(family, colour));
@@ -58,7 +59,10 @@ pub fn run(run: &Run, colour: bool) -> String {
     text
 }
 
-fn results<'a>(family: &'a Family, scenario: &'a str) -> impl Iterator<Item = (&'a Variant, &'a Result)> {
+pub(super) fn results<'a>(
+    family: &'a Family,
+    scenario: &'a str,
+) -> impl Iterator<Item = (&'a Variant, &'a Result)> {
     family.variants.iter().filter_map(move |variant| {
         variant.results.iter().find(|result| result.scenario == scenario).map(|result| (variant, result))
     })
@@ -69,41 +73,59 @@ fn scenario_table(family: &Family, scenario: usize, colour: bool) -> String {
     let headline: Vec<usize> =
         family.outputs.iter().enumerate().filter(|(_, output)| output.headline).map(|(at, _)| at).collect();
     let audited = results(family, &scenario.name).any(|(_, result)| result.audit.is_some());
-    let timed = results(family, &scenario.name).any(|(_, result)| result.timing.is_some());
+    let timed = results(family, &scenario.name).any(|(_, result)| result.timings().next().is_some());
+    let told: Vec<Verdict> = TOLD_IF_ANY
+        .into_iter()
+        .filter(|verdict| {
+            has(family, |result| {
+                result.audit.as_ref().is_some_and(|audit| audit.verdicts.contains_key(verdict))
+            })
+        })
+        .collect();
     let mut header = vec!["variant".to_owned()];
-    if audited {
+    let is_builtin = builtin::is_builtin(family);
+    if audited && is_builtin {
+        header.extend(builtin::HEADER.map(str::to_owned));
+    } else if audited {
         header.extend(["failed", "non-finite", "ill-cond."].map(str::to_owned));
+        header.extend(told.iter().map(|verdict| verdict.name().replace('_', " ")));
         for output in headline.iter().map(|at| &family.outputs[*at]) {
             header.push(format!("{} off > {}", output.name, tolerance(output.tolerance, &output.quantity)));
             header.extend(["p99", "worst", "worst ULP"].map(str::to_owned));
         }
     }
+    if timed && !audited {
+        return timing::table(family, scenario, colour);
+    }
     if timed {
-        header.extend(["ns", "quartiles"].map(str::to_owned));
+        header.extend(timing::SHORT_HEADER.map(str::to_owned));
     }
     let mut table = table(&header, colour);
     for (variant, result) in results(family, &scenario.name) {
         let mut row = vec![Cell::new(&variant.name)];
         if let Some(audit) = &result.audit {
-            row.extend(audit_cells(audit, &headline));
+            row.extend(if is_builtin { builtin::cells(audit) } else { audit_cells(audit, &told, &headline) });
         }
-        if let Some(timing) = &result.timing {
-            row.push(Cell::new(format!("{:.2}", timing.ns.median)));
-            row.push(Cell::new(format!("{:.2}..{:.2}", timing.ns.lower, timing.ns.upper)));
+        if timed {
+            row.extend(timing::short_cells(result));
         }
         table.add_row(row);
     }
     right_align(&mut table);
-    lines(&table)
+    lines(&table) + &timing::ranking(scenario)
 }
 
-fn audit_cells(audit: &Audit, headline: &[usize]) -> Vec<Cell> {
+/// Verdicts with a column of their own in families where they occur: what no error's size tells.
+const TOLD_IF_ANY: [Verdict; 2] = [Verdict::NotEnclosing, Verdict::Missed];
+
+fn audit_cells(audit: &Audit, told: &[Verdict], headline: &[usize]) -> Vec<Cell> {
     let verdict = |verdict: Verdict| audit.verdicts.get(&verdict).map_or_else(|| "0".to_owned(), percent);
     let mut cells = vec![
         graded(&audit.failed),
         Cell::new(verdict(Verdict::NonFinite)),
         Cell::new(verdict(Verdict::IllConditioned)),
     ];
+    cells.extend(told.iter().map(|told| Cell::new(verdict(*told))));
     for output in headline.iter().map(|at| &audit.outputs[*at]) {
         cells.push(Cell::new(percent(&output.beyond)));
         cells.push(Cell::new(short(output.error.p99)));
@@ -124,13 +146,13 @@ fn has(family: &Family, what: impl Fn(&Result) -> bool) -> bool {
 
 fn overview(family: &Family, colour: bool) -> String {
     let audited = has(family, |result| result.audit.is_some());
-    let timed = has(family, |result| result.timing.is_some());
+    let timed = has(family, |result| result.timings().next().is_some());
     let mut header = vec!["variant".to_owned()];
     if audited {
         header.extend(family.scenarios.iter().map(|scenario| scenario.name.clone()));
     }
     if timed {
-        header.push("ns".to_owned());
+        header.extend(timing::SHORT_HEADER.map(str::to_owned));
     }
     let mut table = table(&header, colour);
     for variant in family.variants.iter().filter(|variant| variant.skipped.is_none()) {
@@ -140,9 +162,8 @@ fn overview(family: &Family, colour: bool) -> String {
             let audit = result(&scenario.name).and_then(|result| result.audit.as_ref());
             row.push(audit.map_or_else(|| Cell::new(""), |audit| graded(&audit.failed)));
         }
-        if timed {
-            let timing = result(&family.scenarios[0].name).and_then(|result| result.timing.as_ref());
-            row.push(Cell::new(timing.map_or_else(String::new, |timing| format!("{:.2}", timing.ns.median))));
+        if let Some(result) = result(&family.scenarios[0].name).filter(|_| timed) {
+            row.extend(timing::short_cells(result));
         }
         table.add_row(row);
     }
@@ -162,7 +183,7 @@ fn graded(rate: &Rate) -> Cell {
 
 fn tolerance(tolerance: f64, quantity: &str) -> String {
     match quantity {
-        "magnitude" | "scalar" => format!("{} %", 100.0 * tolerance),
+        "magnitude" | "scalar" | "solid_angle" | "vector" => format!("{} %", 100.0 * tolerance),
         "unit_vector" => format!("{} mrad", 1e3 * tolerance),
         _ => format!("{tolerance}"),
     }
@@ -170,10 +191,6 @@ fn tolerance(tolerance: f64, quantity: &str) -> String {
 
 fn legend(run: &Run) -> String {
     let mut text = String::new();
-    let timings = || {
-        let variants = run.families.iter().flat_map(|family| &family.variants);
-        variants.flat_map(|variant| &variant.results).filter_map(|result| result.timing.as_ref())
-    };
     let audits = || {
         let variants = run.families.iter().flat_map(|family| &family.variants);
         variants.flat_map(|variant| &variant.results).filter_map(|result| result.audit.as_ref())
@@ -189,13 +206,23 @@ fn legend(run: &Run) -> String {
             audit.configurations,
             3.0 / audit.configurations as f64
         );
-    }
-    if let Some(timing) = timings().next() {
-        _ = writeln!(text, "ns: median nanoseconds a configuration, streaming, {}.", clock(timing));
-        if run.device.kind == "cpu" {
-            text.push_str("A software device: times rank only within the same machine and run.\n");
+        let occurs = |verdict| audits().any(|audit| audit.verdicts.contains_key(&verdict));
+        if occurs(Verdict::NotEnclosing) {
+            text.push_str(
+                "not enclosing: the box leaves out a part, however small, of what it must enclose.\n",
+            );
+        }
+        if occurs(Verdict::Missed) {
+            text.push_str(
+                "missed: a miss for a hit or a hit for a miss, beyond what rounding the inputs would explain. Errors are of\n\
+                 what both hit.\n",
+            );
         }
     }
+    if run.families.iter().any(builtin::is_builtin) && audits().next().is_some() {
+        text.push_str(builtin::LEGEND);
+    }
+    text.push_str(&timing::legend(run));
     let oracle = run
         .families
         .iter()
@@ -213,14 +240,7 @@ fn legend(run: &Run) -> String {
     text
 }
 
-fn clock(timing: &Timing) -> &'static str {
-    match timing.clock {
-        Clock::DeviceTimestamps => "by device timestamps",
-        Clock::HostFence => "by the host's clock (the device has no timestamps)",
-    }
-}
-
-fn table<T: ToString>(header: &[T], colour: bool) -> Table {
+pub(super) fn table<T: ToString>(header: &[T], colour: bool) -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING).set_content_arrangement(ContentArrangement::Disabled);
     if colour {
@@ -232,13 +252,13 @@ fn table<T: ToString>(header: &[T], colour: bool) -> Table {
     table
 }
 
-fn right_align(table: &mut Table) {
+pub(super) fn right_align(table: &mut Table) {
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
 }
 
-fn lines(table: &Table) -> String {
+pub(super) fn lines(table: &Table) -> String {
     let mut text = String::new();
     for line in table.lines() {
         text.push_str(line.trim_end());

@@ -122,3 +122,59 @@ def axis_cells(axis):
     leading = next(c for c in axis if largest - abs(c) < mpf(SMALLEST_COMPONENT))
     sign = 1 if leading > 0 else -1
     return [sign * c if abs(c) >= mpf(SMALLEST_COMPONENT) else mpf(0) for c in axis]
+
+
+# --- builtins --------------------------------------------------------------------------------------------------------
+
+
+def neighbours(*values):
+    """Each value of either sign, with the two f32 either side."""
+    rows = []
+    for value in values:
+        rows += [s * f32_step(to_f32(value), k) for s in (1.0, -1.0) for k in (-2, -1, 0, 1, 2) if value != 0 or k >= 0]
+    return rows
+
+
+def builtin(inputs, outputs, function, scenarios):
+    """The golden values of a device's instruction: `function` takes exact mpf inputs and returns one mpf an output, or
+    None where it is undefined. Worked in two precisions that agree."""
+
+    def truth(row):
+        values = []
+        for dps in (60, 100):
+            mp.dps = dps
+            values.append(function(*[mpf(x) for x in row]))
+        first, second = values
+        if second is None:
+            return [None] * len(outputs)
+        for one, other in zip(first, second):
+            if not abs(one - other) <= mpf("1e-50") * abs(other):
+                raise ArithmeticError(f"{one} and {other} on {row}")
+        return second
+
+    return Golden(inputs, outputs, [], scenarios, truth, "Worked in 60 and 100 digits, agreeing to 1e-50")
+
+
+def unary(function, low, high, ends, edges=(), defined=lambda x: True, largest=F32_MAX):
+    """A function of one variable: `domain` is low..high, in steps of the axis and of its exponents; `edge` has the f32
+    neighbours of `ends` and `edges` themselves, powers of two and subnormals, of magnitudes up to `largest`."""
+
+    def domain(rng):
+        span = max(abs(low), abs(high))
+        rows = [uniform(rng, low, high) for _ in range(30)]
+        logs = [span * math.ldexp(uniform(rng, 0.5, 1.0), -int(40 * rng.random())) for _ in range(30)]
+        rows += [x if low >= 0 or k % 2 else -x for k, x in enumerate(logs)]
+        return [[to_f32(min(max(x, low), high))] for x in rows]
+
+    def edge(rng):
+        rows = neighbours(*ends) + list(edges)
+        rows += [F32_MIN_SUBNORMAL, -F32_MIN_SUBNORMAL, 0.0, -0.0, largest, -largest]
+        rows += neighbours(F32_MIN_NORMAL)
+        rows += [s * math.ldexp(1.0, k) for k in range(-120, 121, 30) for s in (1.0, -1.0)]
+        rows += [s * magnitude(rng, -126, 128) for s in (1.0, -1.0) * 8]
+        return [[to_f32(x)] for x in rows if abs(x) <= largest]
+
+    def value(x):
+        return [function(x)] if defined(x) else None
+
+    return builtin(["x"], ["y"], value, {f.__name__: f for f in (domain, edge)})

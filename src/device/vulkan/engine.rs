@@ -51,6 +51,7 @@ struct Limits {
 }
 
 /// How times are taken.
+#[derive(Debug, PartialEq)]
 pub(super) struct Stopwatch {
     pub(super) clock: Clock,
     mask: u64,
@@ -58,6 +59,18 @@ pub(super) struct Stopwatch {
 }
 
 impl Stopwatch {
+    /// For a queue whose timestamps have so many meaningful bits and so many nanoseconds a tick. The host's clock where
+    /// there are none, where a tick is said to be no time at all, or where `ignored`.
+    fn new(bits: u32, period_ns: f32, ignored: bool) -> Self {
+        let usable = bits > 0 && period_ns.is_finite() && period_ns > 0.0 && !ignored;
+        Stopwatch {
+            clock: if usable { Clock::DeviceTimestamps } else { Clock::HostFence },
+            mask: u64::MAX >> (64 - bits.clamp(1, 64)),
+            // A float in the interface, and rarely whole: 83.3 ns truncated to 83 is 0.4 % off.
+            period_ns: f64::from(period_ns),
+        }
+    }
+
     /// Nanoseconds between two timestamps, the counter having wrapped at most once.
     pub(super) fn ns(&self, before: u64, after: u64) -> f64 {
         (after.wrapping_sub(before) & self.mask) as f64 * self.period_ns
@@ -91,8 +104,6 @@ impl Engine {
         // SAFETY: the device was opened with one queue of this family.
         let queue = unsafe { device.get_device_queue(adapter.family, 0) };
         let memory = Memory::new(&logical, &loaded.instance, adapter.physical)?;
-        let bits = adapter.facts.timestamp_bits;
-        let timestamps = bits > 0 && !options.ignore_timestamps;
         Ok(Arc::new(Self {
             lanes: Mutex::default(),
             pool: Pool::new(memory),
@@ -108,12 +119,11 @@ impl Engine {
                 dispatch: adapter.limits.max_compute_work_group_count[0].saturating_mul(LOCAL_SIZE),
                 bytes: u64::from(adapter.limits.max_storage_buffer_range).min(adapter.max_allocation),
             },
-            stopwatch: Stopwatch {
-                clock: if timestamps { Clock::DeviceTimestamps } else { Clock::HostFence },
-                mask: u64::MAX >> (64 - bits.clamp(1, 64)),
-                // A float in the interface, and rarely whole: 83.3 ns truncated to 83 is 0.4 % off.
-                period_ns: f64::from(adapter.limits.timestamp_period),
-            },
+            stopwatch: Stopwatch::new(
+                adapter.facts.timestamp_bits,
+                adapter.limits.timestamp_period,
+                options.ignore_timestamps,
+            ),
             staging: options.force_staging || !adapter.facts.unified_memory,
             poison: options.poison_outputs,
             texel_width: adapter
@@ -202,14 +212,26 @@ mod tests {
 
     #[test]
     fn a_wrapped_counter_and_a_broken_period_are_exact() {
-        let stopwatch = Stopwatch {
-            clock: Clock::DeviceTimestamps,
-            mask: (1 << 36) - 1,
-            period_ns: f64::from(83.333_336_f32),
-        };
+        let stopwatch = Stopwatch::new(36, 83.333_336, false);
+        assert_eq!(stopwatch.clock, Clock::DeviceTimestamps);
         assert_eq!(stopwatch.ns(10, 1_010), 1000.0 * f64::from(83.333_336_f32));
         assert_eq!(stopwatch.ns((1 << 36) - 1, 9), 10.0 * f64::from(83.333_336_f32));
         // Bits above the valid ones are noise.
         assert_eq!(stopwatch.ns(0xdead << 40, 0xbeef << 40 | 5), 5.0 * f64::from(83.333_336_f32));
+        // All 64 bits, which no shift may overflow, and a single one.
+        assert_eq!(Stopwatch::new(64, 1.0, false).ns(u64::MAX - 1, 3), 5.0);
+        assert_eq!(Stopwatch::new(1, 2.0, false).ns(u64::MAX, 2), 2.0);
+        // A second apart at a tick that is no binary fraction: within the rounding of f64.
+        let second = Stopwatch::new(64, 0.1, false).ns(0, 10_000_000_000);
+        assert!((second - 1e10 * f64::from(0.1_f32)).abs() < 1e-6, "{second}");
+    }
+
+    #[test]
+    fn without_usable_timestamps_the_host_takes_the_time() {
+        for (bits, period, ignored) in
+            [(0, 1.0, false), (64, 0.0, false), (64, f32::NAN, false), (64, -1.0, false), (64, 1.0, true)]
+        {
+            assert_eq!(Stopwatch::new(bits, period, ignored).clock, Clock::HostFence, "{bits} {period}");
+        }
     }
 }

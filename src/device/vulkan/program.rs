@@ -7,7 +7,7 @@ use ash::vk;
 use super::call::Named;
 use super::engine::Engine;
 use super::owned::Owned;
-use super::pace::Pace;
+use super::pace::{PROBE_ROWS, Pace};
 use super::tables::Tables;
 use crate::catalog::Kernel;
 use crate::device::Error;
@@ -19,6 +19,8 @@ use crate::device::Error;
 #[derive(Clone)]
 pub struct Program {
     pub(super) compiled: Arc<Compiled>,
+    pub(super) evaluations: u32,
+    pub(super) pace: Arc<Pace>,
 }
 
 pub(super) struct Compiled {
@@ -27,7 +29,6 @@ pub(super) struct Compiled {
     pub(super) inputs: usize,
     pub(super) outputs: usize,
     pub(super) tables: Option<Tables>,
-    pub(super) pace: Pace,
 }
 
 impl Compiled {
@@ -81,8 +82,19 @@ impl Program {
                 inputs: kernel.inputs,
                 outputs: kernel.outputs,
                 tables,
-                pace: Pace::new(),
             }),
+            evaluations: 1,
+            pace: Arc::new(Pace::new()),
         })
+    }
+
+    /// Whether so many rows are enough work for their time to say more of the kernel than of a dispatch's fixed cost.
+    pub(super) fn teaches(&self, rows: u32) -> bool {
+        rows.saturating_mul(self.evaluations) >= PROBE_ROWS
+    }
+
+    /// The same pipeline with another loop count, and so with a pace of its own.
+    pub(super) fn repeating(&self, evaluations: u32) -> Self {
+        Self { compiled: Arc::clone(&self.compiled), evaluations, pace: Arc::new(Pace::new()) }
     }
 }

@@ -105,7 +105,7 @@ impl Pending {
     /// Runs the first rows of a program that has no estimate yet. Returns how many.
     fn learn_pace(&mut self) -> Result<u32, Error> {
         let program = self.program.clone();
-        let pace = &program.compiled.pace;
+        let pace = &program.pace;
         let mut done = 0;
         if pace.estimate().is_some() {
             return Ok(done);
@@ -129,12 +129,12 @@ impl Pending {
     /// (`last`).
     fn dispatch(&mut self, first: u32, last: bool) -> Result<(), Error> {
         let program = self.program.clone();
-        let pace = &program.compiled.pace;
+        let pace = &program.pace;
         let parts = pace.split(first, self.rows, self.engine.dispatch_limit());
         if self.engine.stopwatch.clock == Clock::HostFence {
             for (first, count) in parts {
                 let ns = self.run_now(first, count)?;
-                if count >= PROBE_ROWS {
+                if program.teaches(count) {
                     pace.learn(ns, count);
                 }
             }
@@ -149,7 +149,7 @@ impl Pending {
         self.queued_rows = self.rows - first;
         let mut pairs = 0u32..;
         for (index, &(first, count)) in parts.iter().enumerate() {
-            let range = Range { first, count, stride: self.rows };
+            let range = Range { first, count, stride: self.rows, evaluations: self.program.evaluations };
             let commands = flight.lane().record_dispatch(
                 &program.compiled,
                 program.compiled.layout(&self.engine),
@@ -166,7 +166,7 @@ impl Pending {
         let Some(flight) = &mut self.flight else {
             return Ok(0.0);
         };
-        let range = Range { first, count, stride: self.rows };
+        let range = Range { first, count, stride: self.rows, evaluations: self.program.evaluations };
         let layout = self.program.compiled.layout(&self.engine);
         let ns = match self.engine.stopwatch.clock {
             Clock::HostFence => {
@@ -194,8 +194,8 @@ impl Pending {
             let ns = elapsed_ns(&self.engine, &flight.lane().timestamps(self.queued)?);
             self.spent_ns += ns;
             // Fewer rows say more of a dispatch's fixed cost than of the kernel.
-            if self.queued_rows >= PROBE_ROWS {
-                self.program.compiled.pace.learn(ns, self.queued_rows);
+            if self.program.teaches(self.queued_rows) {
+                self.program.pace.learn(ns, self.queued_rows);
             }
             let held = flight.into_held();
             held.inputs.settle();

@@ -82,6 +82,10 @@ impl Device for VulkanDevice {
         Program::new(&self.engine, kernel)
     }
 
+    fn repeating(&self, program: &Program, evaluations: u32) -> Option<Program> {
+        Some(program.repeating(evaluations))
+    }
+
     /// An error if `rows` is not made of whole rows or exceeds [`max_rows`](Device::max_rows). No rows are
     /// fine.
     fn upload(&self, rows: &[f32], columns: usize) -> Result<Inputs, Error> {

@@ -1,0 +1,76 @@
+//! Work of minutes that may be interrupted: an exhaustive audit in parts, each written to a journal when it is finished.
+
+mod journal;
+
+use std::ops::Range;
+use std::sync::atomic::AtomicBool;
+
+pub use journal::{JOURNAL, Journal, Part};
+
+use crate::audit::{self, Audited, OracleSummary, Stopped, Summary, Sweep};
+use crate::device::Device;
+
+/// Configurations a part: seconds of work, so that little is lost.
+const PART: u64 = 1 << 25;
+
+/// Why a job did not finish.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+    #[error(transparent)]
+    Journal(#[from] journal::Error),
+}
+
+/// Audits `programs` over every bit pattern of `sweep`, going on where the journal ends. `advance` hears of evaluations
+/// that the journal holds too.
+///
+/// The outcome is the same however often the work was interrupted: parts merge by integer addition and maxima.
+pub fn exhaust<D: Device>(
+    device: &D,
+    programs: &[D::Program],
+    sweep: &Sweep<'_>,
+    journal: &mut Journal,
+    advance: &dyn Fn(u64),
+    stop: &AtomicBool,
+) -> Result<Audited, Error> {
+    let family = sweep.problem.name();
+    let mut whole = Audited {
+        oracle: OracleSummary::default(),
+        inputs: 0,
+        summaries: programs.iter().map(|_| Summary::new(sweep.problem, sweep.max_failures)).collect(),
+    };
+    let mut merge = |part: &Part| {
+        whole.oracle = whole.oracle.merged(part.oracle);
+        whole.inputs = whole.inputs.wrapping_add(part.inputs);
+        for (whole, part) in whole.summaries.iter_mut().zip(&part.summaries) {
+            whole.merge(part.clone());
+        }
+    };
+    let mut next = sweep.range.start;
+    for part in journal.parts(family) {
+        merge(part);
+        advance((part.range.end - part.range.start) * programs.len() as u64);
+        next = part.range.end;
+    }
+    while next < sweep.range.end {
+        let range = next..part_end(next).min(sweep.range.end);
+        let part = Sweep { range: range.clone(), ..sweep.clone() };
+        let Audited { oracle, inputs, summaries } = audit::sweep(device, programs, &part, advance, stop)?;
+        let part = Part { family: family.to_owned(), range, oracle, inputs, summaries };
+        merge(&part);
+        next = part.range.end;
+        journal.add(part)?;
+    }
+    Ok(whole)
+}
+
+/// The end of the part that begins at `first`.
+fn part_end(first: u64) -> u64 {
+    (first / PART + 1) * PART
+}
+
+/// How many parts a range has.
+pub fn parts(range: &Range<u64>) -> u64 {
+    range.end.div_ceil(PART) - range.start / PART
+}
