@@ -27,9 +27,13 @@ impl Row {
     }
 }
 
-fn golden(family: &str) -> Vec<Row> {
+fn text(family: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(format!("{family}.csv"));
-    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn golden(family: &str) -> Vec<Row> {
+    let text = text(family);
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.starts_with('#'));
     let header: Vec<&str> = lines.next().expect("a header").1.split(',').collect();
     lines
@@ -46,39 +50,32 @@ fn golden(family: &str) -> Vec<Row> {
         .collect()
 }
 
-/// The relative error allowed of a scalar output: wider than [`SCALAR`] only where the problem's own conditioning in
-/// f64 says so, with the reason beside it.
-fn scalar_tolerance(family: &str, output: &str, row: &Row) -> f64 {
-    match (family, output) {
-        // Terms of up to 1 cancel down to the value, and below 1e-6 certainty is promised in absolute terms only.
-        ("ltc_disk" | "ltc_ellipsoid" | "ltc_sphere", _) => {
-            SCALAR + row.number(output).map_or(0.0, |value| if value > 0.0 { 2e-15 / value } else { 0.0 })
-        }
-        // A contour's sum is off by a few roundings of its terms, which are angles over 2 pi: 4e-15 absolutely.
-        ("ltc_cylinder" | "ltc_strip", _) => {
-            SCALAR + row.number("irradiance").filter(|value| *value > 0.0).map_or(0.0, |value| 4e-15 / value)
-        }
-        // Edges of lights that are small, thin or close cancel, and more precision is taken beyond 2^-36; below 2^-52
-        // the error is absolute.
-        ("ltc_polygon", "irradiance") => row
-            .number("irradiance")
-            .map_or(0.0, |value| 2f64.powi(-36) * (2f64.powi(-52) / value.max(1e-300)).max(1.0)),
-        // Plain f64 is taken while its own bound stays below 1e-11 of the value, twofold numbers beyond.
-        ("sym3_eigen", _) => 1e-11,
-        _ => SCALAR,
-    }
+/// What a golden file's tolerance lines add to [`SCALAR`]: a number, and a condition to divide it by.
+fn tolerances(family: &str) -> HashMap<String, (f64, Option<String>)> {
+    text(family)
+        .lines()
+        .filter_map(|line| line.strip_prefix("# tolerance "))
+        .map(|line| {
+            let (what, reason) = line.split_once(": ").unwrap_or_else(|| panic!("{family}: {line}"));
+            assert!(!reason.is_empty(), "{family}: {line}");
+            let (output, number) = what.split_once(' ').unwrap_or_else(|| panic!("{family}: {line}"));
+            let (number, condition) = match number.split_once('/') {
+                Some((number, condition)) => (number, Some(condition.to_owned())),
+                None => (number, None),
+            };
+            (output.to_owned(), (number.parse().unwrap_or_else(|_| panic!("{family}: {line}")), condition))
+        })
+        .collect()
 }
 
-/// The angle allowed of a direction, in radians: what conditioning lets a certified oracle be off by.
-fn direction_tolerance(family: &str, row: &Row) -> f64 {
-    match family {
-        // Where the relative gap of the lengths is wide, dot products in f64 do, and turn the axes by at most
-        // 2^-51/gap; where it is narrow they are summed exactly.
-        "ellipse_axes" => SCALAR + row.number("gap").map_or(0.0, |gap| 2f64.powi(-51) / gap),
-        // As for its values: plain f64 is taken while its bound stays below 1e-11.
-        "sym3_eigen" => 1e-11,
-        _ => SCALAR,
-    }
+/// The relative error allowed of an output; an angle in radians of a direction.
+fn tolerance(tolerances: &HashMap<String, (f64, Option<String>)>, output: &str, row: &Row) -> f64 {
+    SCALAR
+        + match tolerances.get(output) {
+            None => 0.0,
+            Some((number, None)) => *number,
+            Some((number, Some(condition))) => row.number(condition).map_or(0.0, |by| number / by),
+        }
 }
 
 /// The distance allowed of a vector that has a length, relative to it.
@@ -91,6 +88,7 @@ fn check(problem: &dyn Problem) -> usize {
     let family = problem.name();
     let signature = problem.signature();
     let rows = golden(family);
+    let tolerances = tolerances(family);
     assert!(rows.len() >= 20 * problem.scenarios().len(), "{family}: only {} golden rows", rows.len());
     let mut compared = 0;
     for row in &rows {
@@ -123,7 +121,7 @@ fn check(problem: &dyn Problem) -> usize {
                 | Quantity::Coordinate
                 | Quantity::SolidAngle => {
                     let error = (got[0] - expected[0]).abs();
-                    let allowed = scalar_tolerance(family, name, row) * expected[0].abs();
+                    let allowed = tolerance(&tolerances, name, row) * expected[0].abs();
                     assert!(error <= allowed, "{place}: {name} {} for {}", got[0], expected[0]);
                 }
                 // The golden values are an answer, right or wrong, exact in f32, and a condition is its residual. The
@@ -153,7 +151,7 @@ fn check(problem: &dyn Problem) -> usize {
                 Quantity::VectorIrradiance => {
                     let (got, expected) = (glam::DVec3::from_slice(got), glam::DVec3::from_slice(&expected));
                     let error = (got - expected).length();
-                    let allowed = scalar_tolerance(family, name, row) * expected.length();
+                    let allowed = tolerance(&tolerances, name, row) * expected.length();
                     assert!(error <= allowed, "{place}: {name} {got} for {expected}");
                 }
                 Quantity::Vector { sign_free } => {
@@ -170,7 +168,7 @@ fn check(problem: &dyn Problem) -> usize {
                     let (got, expected) = (glam::DVec3::from_slice(got), glam::DVec3::from_slice(&expected));
                     let sign = if sign_free { got.dot(expected).signum() } else { 1.0 };
                     let angle = (got - sign * expected).length();
-                    let allowed = direction_tolerance(family, row);
+                    let allowed = tolerance(&tolerances, name, row);
                     assert!(
                         angle <= allowed,
                         "{place}: {name} {got} for {expected}: {angle:e} > {allowed:e}"

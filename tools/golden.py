@@ -3,7 +3,9 @@
 
 File format
 -----------
-Comma-separated, one header line, no quoting. Lines that begin with '#' are comments.
+Comma-separated, one header line, no quoting. Lines that begin with '#' are comments; those of the form
+'# tolerance OUTPUT NUMBER: reason' or '# tolerance OUTPUT NUMBER/CONDITION: reason' say how much more than 1e-13 of an
+output its oracle may be off by, relatively (in radians for a direction), where an oracle promises less.
 
 scenario      which part of the input space the row stands for
 <inputs>      exact f32 values as C hex floats (0x1.8p+3); truth belongs to exactly these bits
@@ -40,6 +42,7 @@ def render(family):
     lines = [
         f"# Written by tools/golden.py {family} (make golden) with mpmath; do not edit.",
         f"# {golden.method}; printed to {PRINTED_DIGITS} significant digits.",
+        *(f"# tolerance {output} {tolerance}: {reason}" for output, tolerance, reason in golden.tolerances),
         ",".join(["scenario"] + golden.inputs + golden.outputs + golden.conditions),
     ]
     for scenario, draw in golden.scenarios.items():

@@ -6,7 +6,7 @@
 //! radius counts as its magnitude.
 //!
 //! The silhouette's points are off by a few 2^-53 of the coordinates, which first derivatives turn into a bound, and the
-//! contour's sum by a few of its terms. Where that is more than 2^-35 of the value - thin, distant or barely visible
+//! contour's sum by a few of its terms. Where that is more than 2^-34 of the value - thin, distant or barely visible
 //! cylinders - the sum is done again in double-double.
 
 use glam::{DMat3, DVec3};
@@ -24,8 +24,8 @@ pub(super) struct LtcCylinder;
 const EPS: f64 = f64::EPSILON / 2.0;
 /// What the contour in double-double is off by, in units of its terms: a hundred roundings of its least exact function.
 const FINE: f64 = 1.0 / (1u128 << 88) as f64;
-/// The relative error that more precision is taken for: 2.9e-11, well beyond what certifying an f32 takes.
-const ACCURACY: f64 = 1.0 / (1u64 << 35) as f64;
+/// The relative error that more precision is taken for: 5.8e-11, well beyond what certifying an f32 takes.
+const ACCURACY: f64 = 1.0 / (1u64 << 34) as f64;
 
 const P1: usize = 9;
 const P2: usize = 12;
@@ -296,8 +296,8 @@ mod tests {
             let value = truth.values()[0];
             let mut swapped = row.to_vec();
             swapped[P1..RADIUS].rotate_left(3);
-            // Absolute rounding of the contour's sum.
-            assert!((truth_of(&swapped).values()[0] - value).abs() <= 1e-13, "{row:?}");
+            // Twice what the family promises.
+            assert!((truth_of(&swapped).values()[0] - value).abs() <= 1.2e-10 * value, "{row:?}");
             let doubled: Vec<f32> =
                 row.iter().enumerate().map(|(i, v)| if i < P1 { *v } else { 2.0 * v }).collect();
             assert_eq!(truth_of(&doubled).values()[0], value, "{row:?}");

@@ -360,31 +360,34 @@ impl Derivatives<'_> {
                 let area = if norm(a) < norm(b) { a.cross(b - a) } else { b.cross(b - a) };
                 let Some(piece) = Visible::new(a, b, area) else { return };
                 let [by_a, by_b] = piece.contour_gradient();
-                self.derive(by_a, rims[0], radial);
-                self.derive(by_b, rims[1], radial);
+                self.derive(rims[0], by_a, [(radial, by_a)]);
+                self.derive(rims[1], by_b, [(radial, by_b)]);
             }
             Piece::Arc { rim, signs: [side, turn], ellipse, cone, ends } => {
                 let ends =
                     ends.map(|(start, end, sweep)| (DVec3::from_array(start), DVec3::from_array(end), sweep));
-                ellipse.derivatives(&cone, ends, |[cos, sin], by| {
-                    self.derive(by, rim, side * cos * towards + turn * sin * across);
-                });
+                let [by, by_cos, by_sin] = ellipse.derivatives(&cone, ends);
+                self.derive(rim, by, [(side * towards, by_cos), (turn * across, by_sin)]);
             }
         }
     }
 
-    /// The derivative `by` of E by a contour point map (ends[rim] + radius radial): on to what the point depends on.
-    fn derive(&mut self, by: DVec3, rim: usize, radial: DVec3) {
-        let cylinder = self.cylinder;
-        let point = cylinder.ends[rim] + cylinder.radius * radial;
+    /// The sum `by` of derivatives of E by contour points map (ends[rim] + radius radial), and the sum of the same times
+    /// each component of `radial`: on to what the points depend on.
+    fn derive<const N: usize>(&mut self, rim: usize, by: DVec3, radial: [(DVec3, DVec3); N]) {
+        let Cylinder { ends, radius, frame } = self.cylinder;
         for (column, slot) in self.seen.by_map.iter_mut().enumerate() {
-            *slot += point[column] * by;
+            let across: DVec3 = radial.iter().map(|(direction, by)| direction[column] * *by).sum();
+            *slot += ends[rim][column] * by + *radius * across;
         }
-        let back = self.map.transpose() * by;
-        self.seen.by_rims[rim] += back;
-        self.seen.by_radius += back.dot(radial);
-        // A turning axis tilts the rims.
-        self.seen.by_axis -= cylinder.radius * back.dot(DVec3::from_array(cylinder.frame.axis)) * radial;
+        let back = |by: DVec3| self.map.transpose() * by;
+        self.seen.by_rims[rim] += back(by);
+        for (direction, by) in radial {
+            let by = back(by);
+            self.seen.by_radius += by.dot(direction);
+            // A turning axis tilts the rims.
+            self.seen.by_axis -= *radius * by.dot(DVec3::from_array(frame.axis)) * direction;
+        }
     }
 
     fn finish(mut self) -> Seen {

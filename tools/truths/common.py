@@ -32,6 +32,8 @@ class Golden(NamedTuple):
     scenarios: dict[str, Callable[[random.Random], list[list[float]]]]
     truth: Callable[[list[float]], list]
     method: str = f"Worked in {FEWEST_DIGITS} digits or more, two solvers agreeing to {AGREEMENT}"
+    # (output, relative tolerance or tolerance/condition, reason) where an oracle promises less than 1e-13.
+    tolerances: list[tuple[str, str, str]] = []
 
 
 # --- f32 -------------------------------------------------------------------------------------------------------------

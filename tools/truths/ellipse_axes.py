@@ -182,6 +182,10 @@ def ellipse_axes():
         inputs=xyz("v1", "v2"),
         outputs=xyz("major", "minor") + ["major_len", "minor_len"],
         conditions=["gap", "aspect", "skew"],
+        tolerances=[
+            ("major", "4.5e-16/gap", "dot products in f64 turn the axes by at most 2^-51/gap"),
+            ("minor", "4.5e-16/gap", "dot products in f64 turn the axes by at most 2^-51/gap"),
+        ],
         scenarios={f.__name__: f for f in (scene, aspect, near_circle, scale, edge)},
         truth=truth,
     )

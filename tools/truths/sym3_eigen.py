@@ -163,6 +163,14 @@ def sym3_eigen():
         inputs=["xx", "yy", "zz", "xy", "xz", "yz"],
         outputs=["e0", "e1", "e2"] + [f"q{k}_{c}" for k in range(3) for c in "xyz"],
         conditions=[],
+        tolerances=[
+            ("e0", "1e-11", "plain f64 is taken while its own bound stays below this"),
+            ("e1", "1e-11", "plain f64 is taken while its own bound stays below this"),
+            ("e2", "1e-11", "plain f64 is taken while its own bound stays below this"),
+            ("q0", "1e-11", "plain f64 is taken while its own bound stays below this"),
+            ("q1", "1e-11", "plain f64 is taken while its own bound stays below this"),
+            ("q2", "1e-11", "plain f64 is taken while its own bound stays below this"),
+        ],
         scenarios={f.__name__: f for f in (scene, near_equal, graded, indefinite, light_cone, edge)},
         truth=truth,
     )
