@@ -56,7 +56,7 @@ impl Measure {
 /// the permitted error.
 ///
 /// # Panics
-/// Given a property, which is judged by its [`residual`] and not by its distance from one truth.
+/// Given a property, which is judged by its residual and not by its distance from one truth.
 pub fn measure(output: &Output, values: &[f32], truth: &[f64], sensitivity: f64) -> Measure {
     match output.quantity {
         Quantity::Magnitude | Quantity::Scalar => relative(output, values[0], truth[0], sensitivity),

@@ -15,7 +15,7 @@ pub struct Tolerances {
     /// Probability that a comparison of two runs of the same thing reports any difference, by sampling error alone; it
     /// is divided among the rows (Bonferroni).
     pub level: f64,
-    /// Share by which the times of two runs of the same thing may differ; `None`: see [`drift_of`].
+    /// Share by which the times of two runs of the same thing may differ; `None`: 0.1, on a software device 0.25.
     pub drift: Option<f64>,
 }
 

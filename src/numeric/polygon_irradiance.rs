@@ -114,7 +114,7 @@ fn of_rounded<T: Real, const N: usize>(corners: [Vector<T>; N], error: f64) -> I
 }
 
 impl<const N: usize> Irradiance<N> {
-    /// Whether there is a value, and rounding leaves at most [`ACCURACY`] of it in doubt.
+    /// Whether there is a value, and rounding leaves at most `ACCURACY` of it in doubt.
     pub fn is_certain(&self) -> bool {
         !self.touched && self.bound <= ACCURACY * self.value.abs()
     }
