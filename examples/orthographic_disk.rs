@@ -82,7 +82,7 @@ pub(crate) fn sums(size: u32) -> Sums {
 }
 
 /// What the page prints for 10000 x 10000.
-pub(crate) const PRINTED: f64 = 1.553_599_561_498_967_9;
+pub(crate) const PRINTED: f64 = 1.553_599_561_498_968;
 
 /// Exact areas of the pixels whose far corner is inside the circle, or on it where `on_circle` says so: decided in integers, and
 /// a row of pixels is the difference of two corners.

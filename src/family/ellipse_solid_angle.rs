@@ -101,7 +101,7 @@ impl Problem for EllipseSolidAngle {
             Landmark {
                 name: "solid_angle",
                 summary: "the solid angle itself: small for far lights, 2 pi in the light's plane",
-                edges: &[1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 0.1, 1.0, 3.0, 6.0, 6.28],
+                edges: &[1e-12, 1e-9, 1e-6, 1e-4, 1e-2, 0.1, 1.0, 3.0, 6.0, 6.25],
                 coordinate: |_, truth| truth.output(0)[0],
             },
             Landmark {
