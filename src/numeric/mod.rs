@@ -18,6 +18,7 @@ pub mod plane_rectangle;
 pub mod polygon_irradiance;
 pub mod products;
 pub mod rotation;
+pub mod slim_silhouette;
 pub mod spacing;
 pub mod symmetric3;
 pub mod twofold;
