@@ -7,15 +7,16 @@
 //!  sample, family |              catalog, device                                  +--> judge --> summary, failures
 //!                 +--> oracle f64 with its own error bound -----------------------+     audit
 //!                        family, numeric
-//! summary + timings --> record (one folder a run) --> tables
-//!       bench
+//! summary + timings --> record (one folder a run) --> tables; two runs --> what changed; many --> what to ship
+//!       bench             job: parts of a long one    report                decide
 //! ```
 //!
 //! Everything on that line is a pure function of (family, scenario, seed, index range, device), works on chunks of at
 //! most 2^20 configurations, and merges by integer addition and max.
 //!
-//! Who may use whom: `cli` -> `report` -> `record` -> `bench`, `job` -> `audit` -> `device`, `family` -> `catalog`, `sample`
-//! -> `numeric`; `cli` -> `fit` -> `sample`; `cli`, `report` -> `probe` -> `device`, `catalog`, `sample`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
+//! Who may use whom: `cli` -> `report` -> `decide` -> `record` -> `bench`, `job` -> `audit` -> `device`, `family` ->
+//! `catalog`, `sample` -> `numeric`; `cli` -> `fit` -> `sample`; `cli`, `report` -> `probe` -> `device`, `catalog`,
+//! `sample`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
 
 pub mod audit;
 pub mod bench;

@@ -11,6 +11,11 @@ summary = "A line light times the radius, and each cap that is seen as its area 
 defines = { CAPS = 1 }
 
 [[variant]]
+name = "line_disks"
+summary = "A line light times the radius, and each cap that is seen as a disk light in closed form, cut by the horizon"
+defines = { DISKS = 1, EXACT_HORIZON = 1 }
+
+[[variant]]
 name = "line_inside"
 summary = "line, clamped to the hemisphere, and 1 for a point within the cylinder"
 defines = { INSIDE = 1 }
@@ -18,7 +23,8 @@ defines = { INSIDE = 1 }
 
 // The line light is the limit of the cylinder over its radius, so the cylinder is about radius times the line. The limit
 // loses the caps, which are of second order in the radius. CAPS adds them as the publication does: the transformed
-// cosine's density at the cap's centre, times the solid angle pi r^2 cos/distance^2.
+// cosine's density at the cap's centre, times the solid angle pi r^2 cos/distance^2. DISKS adds them exactly, so that what is
+// left of the error is the line's alone.
 //
 // Domain: cylinders thin against their distance and against the lobe, not seen end-on. Nothing bounds the result by 1.
 // Source: Heitz & Hill 2017; the line's integral is that of ltc_line/positive.
@@ -27,6 +33,10 @@ defines = { INSIDE = 1 }
 // line_inside 6 / 9 / 16 %, line_caps 4 / 5 / 7 %; edge cases 63, 52 and 60 %.
 
 #include "common/line_light.glsl"
+#ifdef DISKS
+#include "common/disk_direct.glsl"
+#include "common/orthogonal.glsl"
+#endif
 
 #ifdef CAPS
 // The lobe's density in direction p, times the solid angle over the area of a small disk at p with normal n.
@@ -55,6 +65,17 @@ float ltc_cylinder(mat3 minv, vec3 p1, vec3 p2, float radius)
 #ifdef CAPS
     vec3 axis = normalize(p2 - p1);
     sum += radius * radius * (cap(minv, p1, axis) + cap(minv, p2, -axis));
+#endif
+#ifdef DISKS
+    vec3 axis = normalize(p2 - p1);
+    vec3 v1 = radius * any_orthogonal(axis);
+    vec3 v2 = cross(axis, v1);
+    // A cap is seen from beyond its end only.
+    if (dot(axis, p1) > 0.0) {
+        sum += disk_direct(minv, p1, v1, v2);
+    } else if (dot(axis, p2) < 0.0) {
+        sum += disk_direct(minv, p2, v1, v2);
+    }
 #endif
 #ifdef INSIDE
     sum = min(sum, 1.0);

@@ -24,7 +24,7 @@ A rule of the gate, all keys but one limit optional:\n  \
     max_error = 1e-3                 of every output in its own measure\n  \
     max_ulp = 8                      of every output\n  \
     quantile = \"p999\"                for max_error and max_ulp: p50 p90 p99 p999 worst [default: worst]\n  \
-    max_time_ratio = 1.1             B's time over A's\n  \
+    max_time_ratio = 1.1             B's time over A's; on a software device relative to all times' change\n  \
     no_worse = [\"accuracy\", \"time\"]  what may not get worse\n  \
     same_bits = true                 outputs as in A, to the last bit")]
 pub(super) struct Arguments {
@@ -107,7 +107,7 @@ pub(super) fn compare(arguments: &Arguments) -> Result<Outcome> {
     super::print(&text)?;
     Ok(match breaches {
         Some(breaches) if !breaches.is_empty() => {
-            eprintln!("rootq: {} rows break the rules of the gate", breaches.len());
+            eprintln!("rootq: {} breaches of the gate's rules", breaches.len());
             Outcome::Violated
         }
         _ => Outcome::Clean,

@@ -29,9 +29,9 @@ pub(super) struct Arguments {
     /// Largest error of any output, in its own measure, at --quantile
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     max_error: Option<f64>,
-    /// Which part of the errors --max-error means
-    #[arg(long, value_enum, default_value_t = QuantileName::Worst)]
-    quantile: QuantileName,
+    /// Which part of the errors --max-error means: p50, p90, p99, p999 or worst
+    #[arg(long, value_name = "QUANTILE", default_value = "worst", value_parser = quantile)]
+    quantile: Quantile,
     /// Largest share of configurations that are wrong by the variant's own fault, in any scenario
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     max_failed: Option<f64>,
@@ -47,15 +47,6 @@ pub(super) struct Arguments {
     /// The choice with all figures as JSON
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum QuantileName {
-    P50,
-    P90,
-    P99,
-    P999,
-    Worst,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -94,13 +85,7 @@ pub(super) fn pick(arguments: &Arguments) -> Result<Outcome> {
     }
     let constraints = Constraints {
         max_error: arguments.max_error,
-        quantile: match arguments.quantile {
-            QuantileName::P50 => Quantile::P50,
-            QuantileName::P90 => Quantile::P90,
-            QuantileName::P99 => Quantile::P99,
-            QuantileName::P999 => Quantile::P999,
-            QuantileName::Worst => Quantile::Worst,
-        },
+        quantile: arguments.quantile,
         max_failed: arguments.max_failed,
         no_non_finite: arguments.no_non_finite,
         scenarios: arguments.scenario.clone(),
@@ -115,6 +100,12 @@ pub(super) fn pick(arguments: &Arguments) -> Result<Outcome> {
     super::print(&text)?;
     // A choice that nothing satisfies is a claim that does not hold.
     Ok(if choice.found { Outcome::Clean } else { Outcome::Violated })
+}
+
+fn quantile(text: &str) -> Result<Quantile, String> {
+    let names = || Quantile::ALL.map(Quantile::name).join(", ");
+    let found = Quantile::ALL.into_iter().find(|quantile| quantile.name() == text);
+    found.ok_or_else(|| format!("there are: {}", names()))
 }
 
 fn setting(times: Times, runs: &[&Recorded], family: &str) -> Setting {

@@ -51,27 +51,25 @@ pub(super) fn accuracy(
     paired: bool,
     level: f64,
 ) -> AccuracyChange {
-    let non_finite = [a, b].map(|audit| verdict(audit, Verdict::NonFinite));
+    let non_finite = [a, b].map(|audit| audit.verdict(Verdict::NonFinite));
     let failed = [a.failed, b.failed];
     let result = |change, reason: String| AccuracyChange { change, reason, failed, non_finite };
     if bits.is_some_and(|bits| bits.identical()) {
         return result(Change::Same, "identical to the last bit".to_owned());
     }
-    // On the same configurations a first NaN, or the last one gone, is a fact and needs no statistics.
-    if paired && (non_finite[0].count == 0) != (non_finite[1].count == 0) {
-        let change = if non_finite[1].count > 0 { Change::Worse } else { Change::Better };
-        return result(change, format!("not finite: {} -> {}", non_finite[0].count, non_finite[1].count));
-    }
     let totals = [a.configurations, b.configurations];
+    let mut moves = Vec::new();
     for (what, [from, to]) in [("not finite", non_finite), ("failed", failed)] {
-        if differ([from.count, to.count], totals, level) {
+        // On the same configurations a first NaN, or the last one gone, is a fact and needs no statistics.
+        let fact = what == "not finite" && paired && (from.count == 0) != (to.count == 0);
+        if fact || differ([from.count, to.count], totals, level) {
             let change = if to.rate > from.rate { Change::Worse } else { Change::Better };
-            return result(change, format!("{what}: {:.3e} -> {:.3e} of all", from.rate, to.rate));
+            moves.push((change, format!("{what}: {} -> {}", told(&from), told(&to))));
         }
     }
-    let moves = quantile_moves(a, b, level);
-    let worst = |change: Change| moves.iter().find(|(moved, _)| *moved == change);
-    match (worst(Change::Worse), worst(Change::Better)) {
+    moves.extend(quantile_moves(a, b, level));
+    let first = |change: Change| moves.iter().find(|(moved, _)| *moved == change);
+    match (first(Change::Worse), first(Change::Better)) {
         (Some((_, worse)), Some((_, better))) => {
             return result(Change::CannotTell, format!("{worse}, but {better}"));
         }
@@ -88,11 +86,17 @@ pub(super) fn accuracy(
     }
 }
 
-pub(super) fn verdict(audit: &Audit, verdict: Verdict) -> Rate {
-    audit.verdicts.get(&verdict).copied().unwrap_or_else(|| {
-        let (low, high) = crate::bench::rate_interval(0, audit.configurations);
-        Rate { count: 0, rate: 0.0, low, high }
-    })
+/// How many tests of this level [`accuracy`] makes of audits with so many outputs.
+pub(super) fn tests(outputs: usize) -> usize {
+    2 + 3 * outputs
+}
+
+fn told(rate: &Rate) -> String {
+    match rate.count {
+        0 => "0".to_owned(),
+        count if rate.rate < 1e-4 => format!("{count} configurations"),
+        _ => format!("{:.2} %", 100.0 * rate.rate),
+    }
 }
 
 /// Each quantile of each output's error that moved by [`QUANTILE_FACTOR`] or more, where the shares of errors beyond the
@@ -131,19 +135,8 @@ fn quantile_moves(a: &Audit, b: &Audit, level: f64) -> Vec<(Change, String)> {
 /// Errors beyond `value`, the upper edge of one of the histogram's buckets.
 fn beyond_value(distribution: &Distribution, value: f64) -> u64 {
     let Buckets { first, counts } = &distribution.buckets;
-    let beyond = counts.iter().enumerate().filter(|(at, _)| bucket_start(first + at) >= value);
+    let beyond = counts.iter().enumerate().filter(|(at, _)| Buckets::start(first + at) >= value);
     beyond.map(|(_, count)| count).sum()
-}
-
-/// Where a bucket of the record's histograms begins.
-fn bucket_start(bucket: usize) -> f64 {
-    match bucket {
-        0 => 0.0,
-        _ => {
-            let (octave, quarter) = ((bucket - 1) / 4, (bucket - 1) % 4);
-            libm::ldexp(1.0 + quarter as f64 / 4.0, octave as i32 - 64)
-        }
-    }
 }
 
 /// Whether two rates differ at this level, by the exact conditional test: given their sum, the first count is binomial.
@@ -202,7 +195,7 @@ mod tests {
         const N: u64 = 1_000_000;
         // All errors in three buckets: 2 per cent just below p99 or 1, one in 500 just below 1.
         let mut counts = vec![0; 258];
-        let bucket = |value: f64| (1..258).rfind(|bucket| bucket_start(*bucket) < value).unwrap_or(0);
+        let bucket = |value: f64| (1..258).rfind(|bucket| Buckets::start(*bucket) < value).unwrap_or(0);
         counts[0] = N - N / 50 - N / 500;
         counts[bucket(p99)] += N / 50;
         counts[bucket(1.0)] += N / 500;
@@ -250,7 +243,7 @@ mod tests {
     fn failures_decide_first() {
         assert_eq!(change(&audit(100, 0, 1.0), &audit(100, 0, 1.0)), Change::Same);
         assert_eq!(change(&audit(100, 0, 1.0), &audit(300, 0, 1.0)), Change::Worse);
-        assert_eq!(change(&audit(300, 0, 1.0), &audit(100, 0, 9.0)), Change::Better);
+        assert_eq!(change(&audit(300, 0, 1.0), &audit(100, 0, 1.0)), Change::Better);
         assert_eq!(change(&audit(3, 0, 1.0), &audit(6, 0, 1.0)), Change::CannotTell);
         // Half of all: a hundred more is noise, and the intervals are close.
         assert_eq!(change(&audit(500_000, 0, 1.0), &audit(500_100, 0, 1.0)), Change::Same);
@@ -265,6 +258,13 @@ mod tests {
         assert_eq!(change(&audit(5, 1, 1.0), &audit(5, 0, 1.0)), Change::Better);
         let told = accuracy([&audit(5, 0, 1.0), &audit(5, 1, 1.0)], None, false, 1e-4);
         assert_eq!(told.change, Change::Same);
+    }
+
+    /// Fewer NaN and more failures: neither better nor worse.
+    #[test]
+    fn opposite_moves_tell_nothing() {
+        assert_eq!(change(&audit(900, 800, 1.0), &audit(2_000, 300, 1.0)), Change::CannotTell);
+        assert_eq!(change(&audit(900, 1, 1.0), &audit(2_000, 0, 1.0)), Change::CannotTell);
     }
 
     #[test]
@@ -288,7 +288,7 @@ mod tests {
             error.buckets = Buckets { first: 100, counts: vec![low, 0, 0, 0, 0, 0, 0, 1_000_000 - low] };
             audit
         };
-        let (low, high) = (bucket_start(101), bucket_start(108));
+        let (low, high) = (Buckets::start(101), Buckets::start(108));
         assert_eq!(change(&with(low, 500_100), &with(high, 499_900)), Change::Same);
         assert_eq!(change(&with(low, 510_000), &with(high, 490_000)), Change::Worse);
     }

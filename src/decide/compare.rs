@@ -7,13 +7,14 @@ use serde::Serialize;
 use super::accuracy::{self, AccuracyChange, BitsChange};
 use super::time::{self, Allowance, TimeChange};
 use super::{Change, accuracy::quantile_of_normal};
+use crate::bench::Timing;
 use crate::record::{Family, Recorded, Result, Run, Scenario, Variant};
 
 /// What two runs of the same thing may differ by.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Tolerances {
     /// Probability that a comparison of two runs of the same thing reports any difference, by sampling error alone; it
-    /// is divided among the rows (Bonferroni).
+    /// is divided among the tests that are made (Bonferroni).
     pub level: f64,
     /// Share by which the times of two runs of the same thing may differ; `None`: 0.1, on a software device 0.25.
     pub drift: Option<f64>,
@@ -153,8 +154,9 @@ pub fn compare(a: &Recorded, b: &Recorded, tolerances: Tolerances) -> Comparison
     let software = a.run.device.kind == "cpu" && a.run.device.name == b.run.device.name;
     let ratios = all_times.iter().map(|[a, b]| b.ns.median / a.ns.median).collect();
     let common = if software { time::common(ratios) } else { None };
-    let comparisons = pairs.len() + all_times.len();
-    let level = tolerances.level / comparisons.max(1) as f64;
+    let audits = pairs.iter().filter_map(|(_, [cell, _])| cell.result.audit.as_ref());
+    let tests = audits.map(|audit| accuracy::tests(audit.outputs.len())).sum::<usize>() + all_times.len();
+    let level = tolerances.level / tests.max(1) as f64;
     let allowance = Allowance { drift, z: quantile_of_normal(level), common: common.unwrap_or(1.0) };
 
     let row = |(key, cells): &(&Key, [&Cell<'_>; 2])| {
@@ -204,8 +206,8 @@ fn side(recorded: &Recorded) -> Side {
     Side {
         path: recorded.path.display().to_string(),
         device: device.name.clone(),
-        driver: format!("{} {}", device.driver, device.driver_info),
-        revision: format!("{}{}", program.revision, if program.dirty { " (modified)" } else { "" }),
+        driver: format!("{} {}", device.driver, device.driver_info).trim().to_owned(),
+        revision: format!("{:.9}{}", program.revision, if program.dirty { " (modified)" } else { "" }),
         started: started.clone(),
         seed: settings.seed,
         configurations: settings.configurations,
@@ -228,6 +230,13 @@ fn notes(a: &Recorded, b: &Recorded, pairs: &[[&Cell<'_>; 2]], common: Option<f6
         notes.push(format!(
             "{other_text} rows are of variants whose SPIR-V differs: the shader changed, not only the device"
         ));
+    }
+    let clocks = pairs.iter().flat_map(|[a, b]| {
+        let both = |time: &Timing| Some(time.clock != b.result.timing_in(time.setting)?.clock);
+        a.result.timings().filter_map(both).collect::<Vec<_>>()
+    });
+    if clocks.filter(|other| *other).count() > 0 {
+        notes.push("times were taken by different clocks in the two runs: they are not compared".to_owned());
     }
     let (host_a, host_b) = (&a.run.host, &b.run.host);
     if let Some(common) = common {

@@ -9,15 +9,14 @@
 //! max_error = 1e-3                # of every output in its own measure, at `quantile`
 //! max_ulp = 4                     # likewise in units of the f32 spacing
 //! quantile = "p999"               # p50, p90, p99, p999 or worst; absent: worst
-//! max_time_ratio = 1.1            # B's time over A's; broken where the interval's lower end is above it
+//! max_time_ratio = 1.1            # B's time over A's (on a software device relative to the median change of all times);
+//!                                 # broken where the interval's lower end is above it
 //! no_worse = ["accuracy", "time"] # what may not be worse than in A
 //! same_bits = true                # outputs as in A, to the last bit
 //! ```
 
 use globset::{GlobBuilder, GlobMatcher};
 use serde::{Deserialize, Serialize};
-
-use super::accuracy::verdict;
 
 use super::{Change, Comparison, Quantile, Row};
 use crate::audit::Verdict;
@@ -112,7 +111,7 @@ impl Rules {
         let mut breaches = Vec::new();
         for (position, rule) in self.rules.iter().enumerate() {
             let number = position + 1;
-            let mut any = false;
+            let (mut any, mut compared, mut timed) = (false, false, false);
             for (family, variant, result) in results(b) {
                 let id = format!("{family}/{}", variant.name);
                 if !rule.selects(family, &id, &result.scenario) {
@@ -121,6 +120,8 @@ impl Rules {
                 any = true;
                 let row =
                     comparison.rows.iter().find(|row| row.id() == id && row.scenario == result.scenario);
+                compared |= row.is_some_and(|row| row.accuracy.is_some());
+                timed |= row.is_some_and(|row| !row.times.is_empty());
                 let found = rule.limits(result.audit.as_ref()).into_iter().chain(rule.changes(row));
                 breaches.extend(found.map(|what| Breach {
                     rule: number,
@@ -149,6 +150,18 @@ impl Rules {
                     scenario.text,
                     b.path.display()
                 ));
+            }
+            // What was never measured keeps no limit.
+            let lacks = |what: &str| {
+                Err(format!(
+                    "rule {number} limits {what}, but no row that it selects has {what} in both runs"
+                ))
+            };
+            if rule.wants_times() && !timed {
+                return lacks("times");
+            }
+            if rule.no_worse.contains(&Aspect::Accuracy) && !compared {
+                return lacks("accuracy");
             }
         }
         Ok(breaches)
@@ -186,6 +199,10 @@ impl Rule {
         Ok(())
     }
 
+    fn wants_times(&self) -> bool {
+        self.max_time_ratio.is_some() || self.no_worse.contains(&Aspect::Time)
+    }
+
     fn selects(&self, family: &str, id: &str, scenario: &str) -> bool {
         (self.select.matcher.is_match(id) || self.select.matcher.is_match(family))
             && self.scenario.matcher.is_match(scenario)
@@ -204,14 +221,11 @@ impl Rule {
         };
         let mut share = |name: &str, rate: f64, count: u64, limit: Option<f64>| {
             if let Some(limit) = limit.filter(|limit| rate > *limit) {
-                broken.push(format!(
-                    "{name} {rate:.3e} ({count} of {}) is above {limit:e}",
-                    audit.configurations
-                ));
+                broken.push(format!("{name} {rate} ({count} of {}) is above {limit}", audit.configurations));
             }
         };
         share("failed", audit.failed.rate, audit.failed.count, self.max_failed);
-        let non_finite = verdict(audit, Verdict::NonFinite);
+        let non_finite = audit.verdict(Verdict::NonFinite);
         share("not finite", non_finite.rate, non_finite.count, self.max_non_finite);
         for output in &audit.outputs {
             let quantile = self.quantile;
@@ -221,8 +235,8 @@ impl Rule {
                     broken.push(format!("{word} {name} of {} {value:.3e} is above {limit:e}", output.name));
                 }
             };
-            above("error", quantile.of_error(output), self.max_error);
-            above("ULP", quantile.of_ulp(output), self.max_ulp);
+            above("error", quantile.of_error(audit, output), self.max_error);
+            above("ULP", quantile.of_ulp(audit, output), self.max_ulp);
         }
         broken
     }
@@ -309,6 +323,32 @@ mod tests {
         assert!(broken("[[rule]]\nmax_failed = -1").unwrap_err().contains("negative"));
         assert!(broken("[[rule]]\nselect = \"[\"\nmax_failed = 1").unwrap_err().contains("not a pattern"));
         assert!(broken("").is_err());
+    }
+
+    /// A limit on what was not measured is not kept by that.
+    #[test]
+    fn what_was_not_measured_keeps_nothing() {
+        let full = sample::run("gpu", &[("good", 0, 0, 1e-6, 10.0)]);
+        let without = |times: bool| {
+            let mut run = full.clone();
+            for result in
+                run.run.families.iter_mut().flat_map(|f| &mut f.variants).flat_map(|v| &mut v.results)
+            {
+                if times { result.timing = None } else { result.audit = None }
+            }
+            run
+        };
+        let judge = |rules: &str, run: &Recorded| {
+            let comparison = compare(run, run, Tolerances::default());
+            Rules::parse(rules).unwrap().breaches(&comparison, run)
+        };
+        for rules in ["[[rule]]\nmax_time_ratio = 2", "[[rule]]\nno_worse = [\"time\"]"] {
+            assert!(judge(rules, &full).unwrap().is_empty());
+            assert!(judge(rules, &without(true)).unwrap_err().contains("limits times"));
+        }
+        let accuracy = "[[rule]]\nno_worse = [\"accuracy\"]";
+        assert!(judge(accuracy, &full).unwrap().is_empty());
+        assert!(judge(accuracy, &without(false)).unwrap_err().contains("limits accuracy"));
     }
 
     #[test]

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 pub use accuracy::{AccuracyChange, BitsChange};
 pub use compare::{Comparison, Row, Side, Tolerances, compare};
 pub use gate::{Breach, Rules};
-pub use pick::{At, Candidate, Choice, Constraints, Seen, pick};
+pub use pick::{At, Candidate, Choice, Constraints, Seen, USELESS, pick};
 pub use quantile::Quantile;
 pub use time::TimeChange;
 

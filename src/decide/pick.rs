@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::Quantile;
-use super::accuracy::verdict;
 use crate::audit::Verdict;
 use crate::bench::{Setting, rate_interval};
 use crate::record::{Rate, Recorded, Result, Run};
@@ -74,10 +73,14 @@ pub struct Candidate {
 pub struct Choice {
     pub family: String,
     pub devices: Vec<Seen>,
+    /// Those that count, and those that do not because some run lacks them.
     pub scenarios: Vec<String>,
+    pub left_out: Vec<String>,
+    /// The scenario on which the times were taken, one a device.
+    pub timed_on: Vec<Option<String>>,
     pub quantile: Quantile,
     pub setting: Setting,
-    /// Times closer than this share are not told apart.
+    /// Times closer than this share are not told apart; from [`USELESS`] on none are, and accuracy alone decides.
     pub noise: f64,
     /// The best first: those that break no constraint by fewest failures and then time (by time alone, if a limit on
     /// failures or errors was given), then the rest.
@@ -107,39 +110,63 @@ pub fn pick(
     if found.len() != runs.len() || found.is_empty() {
         return Err(format!("no audit of {family} in {} of {} runs", runs.len() - found.len(), runs.len()));
     }
-    let counts =
-        |name: &str| constraints.scenarios.is_empty() || constraints.scenarios.iter().any(|s| s == name);
-    let mut scenarios: Vec<String> = Vec::new();
-    for scenario in found.iter().flat_map(|(_, family)| &family.scenarios).filter(|s| counts(&s.name)) {
-        if !scenarios.contains(&scenario.name) {
-            scenarios.push(scenario.name.clone());
+    for (position, run) in runs.iter().enumerate() {
+        let device = |run: &Recorded| (run.run.device.uuid.clone(), run.run.device.name.clone());
+        if let Some(twin) = runs[..position].iter().find(|twin| device(twin) == device(run)) {
+            let (name, paths) = (&run.run.device.name, [twin.path.display(), run.path.display()]);
+            return Err(format!("{} and {} are both of {name}; name one run a device", paths[0], paths[1]));
         }
     }
-    for wanted in &constraints.scenarios {
-        if !scenarios.contains(wanted) {
-            return Err(format!("no run has scenario '{wanted}' of {family}"));
+    let wanted =
+        |name: &str| constraints.scenarios.is_empty() || constraints.scenarios.iter().any(|s| s == name);
+    let audited = |family: &crate::record::Family, name: &str| {
+        let mut results = family.variants.iter().flat_map(|variant| &variant.results);
+        results.any(|result| result.scenario == name && result.audit.is_some())
+    };
+    // What counts is audited in every run.
+    let (mut scenarios, mut left_out) = (Vec::<String>::new(), Vec::<String>::new());
+    for scenario in found.iter().flat_map(|(_, family)| &family.scenarios).filter(|s| wanted(&s.name)) {
+        let everywhere = found.iter().all(|(_, family)| audited(family, &scenario.name));
+        let list = if everywhere { &mut scenarios } else { &mut left_out };
+        if !list.contains(&scenario.name) {
+            list.push(scenario.name.clone());
         }
+    }
+    for name in &constraints.scenarios {
+        if !scenarios.contains(name) {
+            return Err(format!("scenario '{name}' of {family} is not audited in every run"));
+        }
+    }
+    if scenarios.is_empty() {
+        return Err(format!(
+            "no scenario of {family} is audited in every run; 'rootq run {family}' audits all"
+        ));
     }
     let names: std::collections::BTreeSet<&str> =
         found.iter().flat_map(|(_, family)| &family.variants).map(|variant| variant.name.as_str()).collect();
-    let noise = noise(&found, constraints.setting);
+    let timed_on: Vec<Option<String>> =
+        found.iter().map(|(_, family)| timed_on(family, &scenarios, constraints.setting)).collect();
+    let noise = noise(&found, &timed_on, constraints.setting);
+    let told_apart = if noise < USELESS { noise } else { f64::INFINITY };
 
-    let mut candidates: Vec<Candidate> =
-        names.into_iter().filter_map(|name| candidate(name, &found, &scenarios, constraints)).collect();
+    let mut candidates: Vec<Candidate> = names
+        .into_iter()
+        .filter_map(|name| candidate(name, &found, &scenarios, &timed_on, constraints))
+        .collect();
     if candidates.is_empty() {
         return Err(format!("no audit of {family} in these runs; 'rootq run {family}' makes one"));
     }
     set_costs(&mut candidates);
     for position in 0..candidates.len() {
-        let dominated = candidates.iter().any(|other| dominates(other, &candidates[position], noise));
+        let dominated = candidates.iter().any(|other| dominates(other, &candidates[position], told_apart));
         candidates[position].on_front = !dominated;
     }
     let limited = constraints.max_error.is_some() || constraints.max_failed.is_some();
-    sort(&mut candidates, limited, noise);
+    sort(&mut candidates, limited, told_apart);
     let found_one = candidates[0].breaks.is_empty();
     let (chosen, others) = candidates.split_at_mut(1);
     for other in others {
-        other.lost = lost(other, &chosen[0], found_one, noise);
+        other.lost = lost(other, &chosen[0], found_one, told_apart);
     }
     let reason = reason(&candidates, &scenarios, runs.len(), found_one, limited, noise);
     Ok(Choice {
@@ -149,6 +176,8 @@ pub fn pick(
             .map(|run| Seen { device: run.run.device.name.clone(), path: run.path.display().to_string() })
             .collect(),
         scenarios,
+        left_out,
+        timed_on,
         quantile: constraints.quantile,
         setting: constraints.setting,
         noise,
@@ -158,9 +187,27 @@ pub fn pick(
     })
 }
 
-/// The noise of these rankings; two per cent where none is recorded.
-fn noise(found: &[(&Run, &crate::record::Family)], setting: Setting) -> f64 {
-    let rankings = found.iter().flat_map(|(_, family)| &family.scenarios).filter_map(|s| s.ranking(setting));
+/// With this much noise times decide nothing.
+pub const USELESS: f64 = 0.25;
+
+/// The scenario whose times count in a run: of those that count the first with times, or the first at all.
+fn timed_on(family: &crate::record::Family, scenarios: &[String], setting: Setting) -> Option<String> {
+    let mut timed: Vec<&String> = Vec::new();
+    for scenario in &family.scenarios {
+        let mut results = family.variants.iter().flat_map(|variant| &variant.results);
+        if results.any(|result| result.scenario == scenario.name && result.timing_in(setting).is_some()) {
+            timed.push(&scenario.name);
+        }
+    }
+    let counted = timed.iter().find(|name| scenarios.contains(name));
+    counted.or(timed.first()).map(|name| (*name).clone())
+}
+
+/// The largest noise of the rankings whose times count; two per cent where none is recorded.
+fn noise(found: &[(&Run, &crate::record::Family)], timed_on: &[Option<String>], setting: Setting) -> f64 {
+    let rankings = found.iter().zip(timed_on).filter_map(|((_, family), on)| {
+        family.scenarios.iter().find(|scenario| Some(&scenario.name) == on.as_ref())?.ranking(setting)
+    });
     rankings.map(|ranking| ranking.noise).reduce(f64::max).unwrap_or(0.02)
 }
 
@@ -168,6 +215,7 @@ fn candidate(
     name: &str,
     found: &[(&Run, &crate::record::Family)],
     scenarios: &[String],
+    timed_on: &[Option<String>],
     constraints: &Constraints,
 ) -> Option<Candidate> {
     let mut breaks = Vec::new();
@@ -176,7 +224,7 @@ fn candidate(
     let mut worst_non_finite: Option<At<Rate>> = None;
     let mut worst_error: Option<At<Error>> = None;
     let mut ns = Vec::new();
-    for (run, family) in found {
+    for ((run, family), timed_on) in found.iter().zip(timed_on) {
         let device = &run.device.name;
         let variant = family.variants.iter().find(|variant| variant.name == name);
         let results: &[Result] = variant.map_or(&[], |variant| &variant.results);
@@ -186,25 +234,27 @@ fn candidate(
                 .unwrap_or_else(|| "not in the run".to_owned());
             breaks.push(format!("{why} ({device})"));
         }
+        for scenario in scenarios.iter().filter(|_| !results.is_empty()) {
+            if !results.iter().any(|result| result.scenario == *scenario && result.audit.is_some()) {
+                breaks.push(format!("is not audited in {scenario} ({device})"));
+            }
+        }
         for result in results.iter().filter(|result| scenarios.contains(&result.scenario)) {
             let Some(audit) = &result.audit else { continue };
             failed += audit.failed.count;
             total += audit.configurations;
             let at = |rate| At { value: rate, scenario: result.scenario.clone(), device: device.clone() };
             raise(&mut worst_failed, at(audit.failed), |at| at.value.rate);
-            raise(&mut worst_non_finite, at(verdict(audit, Verdict::NonFinite)), |at| at.value.rate);
+            raise(&mut worst_non_finite, at(audit.verdict(Verdict::NonFinite)), |at| at.value.rate);
             for output in &audit.outputs {
-                let error = Error { error: constraints.quantile.of_error(output) };
+                let error = Error { error: constraints.quantile.of_error(audit, output) };
                 let at = At { value: error, scenario: result.scenario.clone(), device: device.clone() };
                 raise(&mut worst_error, at, |at| at.value.error);
             }
         }
-        ns.push(
-            results
-                .iter()
-                .find_map(|result| result.timing_in(constraints.setting))
-                .map(|time| time.ns.median),
-        );
+        let on = |result: &&Result| Some(&result.scenario) == timed_on.as_ref();
+        let time = results.iter().find(on).and_then(|result| result.timing_in(constraints.setting));
+        ns.push(time.map(|time| time.ns.median));
     }
     let (worst_failed, worst_non_finite, worst_error) = (worst_failed?, worst_non_finite?, worst_error?);
     if constraints.no_non_finite && worst_non_finite.value.count > 0 {
@@ -274,7 +324,7 @@ fn dominates(a: &Candidate, b: &Candidate, noise: f64) -> bool {
     // A bucket of the histogram is a quarter wide.
     const CLEARLY: f64 = 1.25;
     let costs = a.cost.zip(b.cost);
-    let no_slower = costs.is_none_or(|(a, b)| a <= b);
+    let no_slower = noise.is_infinite() || costs.is_none_or(|(a, b)| a <= b);
     let no_worse = a.failed.rate <= b.failed.rate && a.worst_error.value.error <= b.worst_error.value.error;
     let faster = costs.is_some_and(|(a, b)| a * (1.0 + noise) < b);
     let better =
@@ -371,7 +421,11 @@ fn reason(
         count => format!("{count} failures ({} of all, most {})", percent(failed.rate), told(worst_failed)),
     };
     let place = match (limited, candidates[0].cost) {
-        (_, None) => format!("the fewest failures of {keeping} variants; no times were recorded"),
+        (_, None) => format!("the fewest failures of {keeping} variants; times are missing"),
+        _ if noise >= USELESS => format!(
+            "the fewest failures of {keeping} variants; times differ from themselves by {:.0} % and decide nothing",
+            100.0 * noise
+        ),
         (true, Some(_)) => format!("the fastest of {keeping} variants that keep the constraints"),
         (false, Some(_)) => {
             format!(
@@ -384,7 +438,9 @@ fn reason(
     let runner_up = candidates.get(1).filter(|other| other.breaks.is_empty());
     let runner_up = runner_up
         .map_or_else(String::new, |other| format!(". Runner-up: {}, which {}", other.variant, other.lost));
-    format!("{variant}: {place}; {finite}; {failures}; {} scenarios on {on}{runner_up}", scenarios.len())
+    let count =
+        if scenarios.len() == 1 { "1 scenario".to_owned() } else { format!("{} scenarios", scenarios.len()) };
+    format!("{variant}: {place}; {finite}; {failures}; {count} on {on}{runner_up}")
 }
 
 #[cfg(test)]
@@ -448,6 +504,41 @@ mod tests {
         let close = choice.candidates.iter().find(|candidate| candidate.variant == "close").unwrap();
         assert!(close.lost.contains("a cpu"), "{}", close.lost);
         assert!((close.cost.unwrap() - 2.0).abs() < 1e-12);
+    }
+
+    /// Times that differ from themselves by a half rank nothing.
+    #[test]
+    fn noise_can_make_times_useless() {
+        let mut run = sample::run("gpu", &VARIANTS);
+        let ratio = serde_json::json!({ "median": 1.0, "low": 0.6, "high": 1.5 });
+        let ranking = serde_json::json!({
+            "regime": "streaming", "inputs": "divergent", "reference": "exact",
+            "null_ns": { "lower": 1.0, "median": 1.0, "upper": 1.0 }, "control": ratio, "noise": 0.5,
+            "self_comparisons": 1, "false_positives": 0, "stopped": "time", "rounds": 11, "discarded": 0, "seconds": 1.0,
+        });
+        run.run.families[0].scenarios[0].rankings = vec![serde_json::from_value(ranking).unwrap()];
+        let choice = pick("family", &[&run], &Constraints::default()).unwrap();
+        assert_eq!(names(&choice)[0], "exact");
+        assert!(choice.reason.contains("decide nothing"), "{}", choice.reason);
+    }
+
+    /// What a run lacks is neither right nor wrong: it does not count, and a variant that lacks it is not chosen.
+    #[test]
+    fn what_was_not_audited_counts_for_nothing() {
+        let (gpu, mut cpu) = (sample::run("gpu", &VARIANTS), sample::run("cpu", &VARIANTS));
+        for variant in &mut cpu.run.families[0].variants {
+            variant.results.retain(|result| result.scenario == "one");
+        }
+        let choice = pick("family", &[&gpu, &cpu], &Constraints::default()).unwrap();
+        assert_eq!((choice.scenarios, choice.left_out), (vec!["one".to_owned()], vec!["two".to_owned()]));
+        let two = Constraints { scenarios: vec!["two".to_owned()], ..Constraints::default() };
+        assert!(pick("family", &[&gpu, &cpu], &two).unwrap_err().contains("every run"));
+        cpu.run.families[0].variants[1].results.clear();
+        let choice = pick("family", &[&gpu, &cpu], &Constraints::default()).unwrap();
+        assert!(choice.candidates.iter().any(|c| c.variant == "close" && c.lost.contains("not in the run")));
+        assert!(
+            pick("family", &[&gpu, &gpu], &Constraints::default()).unwrap_err().contains("both of a gpu")
+        );
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::record::{Distribution, OutputAudit, Worst};
+use crate::record::{Audit, Distribution, OutputAudit};
 
 /// A quantile of recorded errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -34,27 +34,22 @@ impl Quantile {
     }
 
     /// Of an output's error in its own measure; infinite where results are not finite.
-    pub fn of_error(self, output: &OutputAudit) -> f64 {
-        self.of(&output.error, output.worst, |worst| worst.error)
+    pub fn of_error(self, audit: &Audit, output: &OutputAudit) -> f64 {
+        self.of(&output.error, audit.worst(output).map(|worst| worst.error))
     }
 
     /// Of an output's error in ULP; infinite where results are not finite.
-    pub fn of_ulp(self, output: &OutputAudit) -> f64 {
-        self.of(&output.ulp, output.worst, |worst| worst.ulp)
+    pub fn of_ulp(self, audit: &Audit, output: &OutputAudit) -> f64 {
+        self.of(&output.ulp, audit.worst(output).map(|worst| worst.ulp))
     }
 
-    fn of(self, distribution: &Distribution, worst: Option<Worst>, get: fn(Worst) -> f64) -> f64 {
-        /// The bucket of what is not finite.
-        const LAST: usize = 513;
+    fn of(self, distribution: &Distribution, worst: Option<f64>) -> f64 {
         let value = match self {
             Quantile::P50 => distribution.p50,
             Quantile::P90 => distribution.p90,
             Quantile::P99 => distribution.p99,
             Quantile::P999 => distribution.p999,
-            Quantile::Worst => {
-                let all_finite = distribution.buckets.first + distribution.buckets.counts.len() <= LAST;
-                worst.filter(|_| all_finite).map(get)
-            }
+            Quantile::Worst => worst,
         };
         value.unwrap_or(f64::INFINITY)
     }

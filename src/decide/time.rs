@@ -40,7 +40,9 @@ pub(super) fn time([a, b]: [&Timing; 2], noise: f64, allowance: Allowance) -> Ti
     let error = allowance.z * (relative_error(a).powi(2) + relative_error(b).powi(2)).sqrt();
     let (low, high) = (ratio * f64::exp(-error), ratio * f64::exp(error));
     let limit = 1.0 + allowance.drift.max(noise);
-    let change = if !ratio.is_finite() || ratio <= 0.0 {
+    // Different clocks, or other work a sample, measure different things.
+    let alike = a.clock == b.clock && a.evaluations == b.evaluations;
+    let change = if !alike || !ratio.is_finite() || ratio <= 0.0 {
         Change::CannotTell
     } else if low > limit {
         Change::Worse

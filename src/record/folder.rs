@@ -91,7 +91,7 @@ impl Folder {
 }
 
 /// A run read back.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Recorded {
     /// As it was named.
     pub path: PathBuf,

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::audit::Verdict;
-use crate::bench::{Ceilings, Ranking, Setting, Timing};
+use crate::bench::{Ceilings, Ranking, Setting, Timing, rate_interval};
 use crate::{catalog, device};
 
 /// Version of this schema.
@@ -183,6 +183,22 @@ pub struct Audit {
     pub landmarks: Vec<Vec<Bin>>,
 }
 
+impl Audit {
+    /// Configurations with that verdict.
+    pub fn verdict(&self, verdict: Verdict) -> Rate {
+        self.verdicts.get(&verdict).copied().unwrap_or_else(|| {
+            let (low, high) = rate_interval(0, self.configurations);
+            Rate { count: 0, rate: 0.0, low, high }
+        })
+    }
+
+    /// The worst error of one of these outputs; none if it is not finite somewhere.
+    pub fn worst(&self, output: &OutputAudit) -> Option<Worst> {
+        let not_finite = output.error.buckets.reaches_last() && self.verdict(Verdict::NonFinite).count > 0;
+        output.worst.filter(|_| !not_finite)
+    }
+}
+
 /// A count and the 95 % interval of the rate behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
@@ -261,6 +277,26 @@ pub struct Distribution {
 pub struct Buckets {
     pub first: usize,
     pub counts: Vec<u64>,
+}
+
+impl Buckets {
+    /// The bucket of what is 2^64 or more, infinite, or not a number.
+    pub const LAST: usize = 513;
+
+    /// Where a bucket begins.
+    pub fn start(bucket: usize) -> f64 {
+        match bucket {
+            0 => 0.0,
+            _ => {
+                let (octave, quarter) = ((bucket - 1) / 4, (bucket - 1) % 4);
+                libm::ldexp(1.0 + quarter as f64 / 4.0, octave as i32 - 64)
+            }
+        }
+    }
+
+    fn reaches_last(&self) -> bool {
+        self.first + self.counts.len() > Buckets::LAST
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -152,7 +152,7 @@ fn regime(setting: Setting) -> &'static str {
     match (setting.regime, setting.inputs) {
         (Regime::Streaming, _) => "streaming",
         (Regime::Arithmetic, Coherence::Coherent) => "arithmetic, coherent",
-        (Regime::Arithmetic, Coherence::Divergent) => "arithmetic",
+        (Regime::Arithmetic, Coherence::Divergent) => "arithmetic, divergent",
     }
 }
 
@@ -180,7 +180,7 @@ fn gate(breaches: &[Breach], form: Form) -> String {
     if breaches.is_empty() {
         return format!("{}gate: every rule is kept\n", bullet(form));
     }
-    let mut text = format!("{}gate: {} rows break a rule\n\n", bullet(form), breaches.len());
+    let mut text = format!("{}gate: {} breaches\n\n", bullet(form), breaches.len());
     let mut table = table::table(&["rule", "variant", "scenario", "what"], false);
     for Breach { rule, variant, scenario, what, .. } in breaches {
         table.add_row([Cell::new(rule), Cell::new(variant), Cell::new(scenario), Cell::new(what)]);

@@ -45,8 +45,12 @@ pub fn pick(choice: &Choice, colour: bool) -> String {
          the geometric mean over devices; closer than {:.1} % is not told apart.",
         100.0 * choice.noise
     );
-    for (number, seen) in choice.devices.iter().enumerate() {
-        _ = writeln!(text, "[{}] {}: {}", number + 1, seen.device, seen.path);
+    for (number, (seen, on)) in choice.devices.iter().zip(&choice.timed_on).enumerate() {
+        let on = on.as_ref().map_or_else(String::new, |scenario| format!(", times of {scenario}"));
+        _ = writeln!(text, "[{}] {}: {}{on}", number + 1, seen.device, seen.path);
+    }
+    if !choice.left_out.is_empty() {
+        _ = writeln!(text, "not counted, as some run lacks them: {}", choice.left_out.join(", "));
     }
     text
 }

@@ -129,16 +129,12 @@ fn audit_cells(audit: &Audit, told: &[Verdict], headline: &[usize]) -> Vec<Cell>
     for output in headline.iter().map(|at| &audit.outputs[*at]) {
         cells.push(Cell::new(percent(&output.beyond)));
         cells.push(Cell::new(short(output.error.p99)));
-        let all_finite = output.error.buckets.first + output.error.buckets.counts.len() <= LAST_FINITE;
-        let worst = output.worst.filter(|_| all_finite);
+        let worst = audit.worst(output);
         cells.push(Cell::new(short(worst.map(|worst| worst.error))));
         cells.push(Cell::new(short(worst.map(|worst| worst.ulp))));
     }
     cells
 }
-
-/// Bucket 513 holds what is not finite.
-const LAST_FINITE: usize = 513;
 
 fn has(family: &Family, what: impl Fn(&Result) -> bool) -> bool {
     family.variants.iter().flat_map(|variant| &variant.results).any(what)
