@@ -97,14 +97,15 @@ impl Chunk {
         let mut truth = vec![0.0; rows * widths.truth];
         let mut sensitivities = vec![0.0; rows * widths.sensitivities];
         let mut margins = vec![0.0; rows];
-        let mut bins = vec![0; rows * widths.bins];
-        // A family without landmarks has empty bins, which cannot be chunked by zero.
+        // Without landmarks there is one that nobody reads: nothing has no blocks, and what is zipped with it none either.
+        let bin_width = widths.bins.max(1);
+        let mut bins = vec![0; rows * bin_width];
         let oracle = inputs
             .par_chunks(BLOCK * widths.inputs)
             .zip(truth.par_chunks_mut(BLOCK * widths.truth))
             .zip(sensitivities.par_chunks_mut(BLOCK * widths.sensitivities))
             .zip(margins.par_chunks_mut(BLOCK))
-            .zip(bins.par_chunks_mut((BLOCK * widths.bins).max(1)))
+            .zip(bins.par_chunks_mut(BLOCK * bin_width))
             .map(|((((inputs, truth), sensitivities), margins), bins)| {
                 let mut oracle = OracleSummary::default();
                 let mut scratch = Truth::new(problem.outputs());
@@ -176,6 +177,57 @@ impl OracleSummary {
             escalations: self.escalations + other.escalations,
             uncertified: self.uncertified + other.uncertified,
             worst_bound: self.worst_bound.max(other.worst_bound),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalog::{Field, Type};
+    use crate::family::{Landmark, Output, Quantity};
+
+    /// y = x, without landmarks.
+    struct Plain;
+
+    impl Problem for Plain {
+        fn name(&self) -> &'static str {
+            "plain"
+        }
+
+        fn summary(&self) -> &'static str {
+            "its input"
+        }
+
+        fn inputs(&self) -> &'static [Field] {
+            const { &[Field::new("x", Type::Float)] }
+        }
+
+        fn outputs(&self) -> &'static [Output] {
+            const { &[Output::new("y", Type::Float, Quantity::Scalar, 1e-3)] }
+        }
+
+        fn scenarios(&self) -> &'static [Scenario] {
+            &[]
+        }
+
+        fn landmarks(&self) -> &'static [Landmark] {
+            &[]
+        }
+
+        fn oracle(&self, input: &[f32], truth: &mut Truth) {
+            truth.scalar(0, f64::from(input[0]), 0.0, 1.0);
+        }
+    }
+
+    #[test]
+    fn a_family_without_landmarks_has_truths() {
+        let rows = BLOCK + 3;
+        let chunk = Chunk::of_bits(&Plain, 0x3f80_0000, rows);
+        assert_eq!(chunk.oracle.configurations, rows as u64);
+        for row in 0..rows {
+            assert_eq!(chunk.truth(row), [f64::from(f32::from_bits(0x3f80_0000 + row as u32))]);
+            assert!(chunk.row(row).bins.is_empty());
         }
     }
 }

@@ -144,8 +144,9 @@ impl Problem for OrthonormalBasis {
         };
         let own = if output == B1 { b1 } else { b2 };
         let residuals = [own.length_squared() - 1.0, own.dot(n), b1.dot(b2), b1.cross(b2).dot(n) - 1.0];
-        // Not `max`, which forgets NaN.
-        residuals.into_iter().map(f64::abs).fold(0.0, |worst, r| if r <= worst { worst } else { r })
+        // Not `f64::max`, which forgets NaN.
+        let larger = |worst: f64, r: f64| if worst.is_nan() || r <= worst { worst } else { r };
+        residuals.into_iter().map(f64::abs).fold(0.0, larger)
     }
 }
 
@@ -306,6 +307,18 @@ mod tests {
         assert_eq!(residuals([1.0, 0.0, 0.125, 0.0, 1.0, 0.0]), [0.125, 0.0]);
         assert_eq!(residuals([1.0, 0.0, 0.0, 0.25, 1.0, 0.0]), [0.25, 0.25]);
         assert!(residuals([1.0, 0.0, 0.0, f64::NAN, 1.0, 0.0]).iter().all(|r| r.is_nan()));
+    }
+
+    /// b1.b2 is not a number, and the volume, which comes after it, is one: infinite.
+    #[test]
+    fn what_is_not_a_number_is_not_forgotten() {
+        let infinity = f64::INFINITY;
+        let values = [infinity, -infinity, 0.0, 1.0, 1.0, -1.0];
+        let (b1, b2) = (DVec3::from_slice(&values), DVec3::from_slice(&values[3..]));
+        assert_eq!(b1.cross(b2).dot(DVec3::ONE), infinity);
+        for output in [B1, B2] {
+            assert!(OrthonormalBasis.residual(output, &[1.0; 3], &values).is_nan());
+        }
     }
 
     #[test]

@@ -256,8 +256,11 @@ impl Truth {
         let offset = self.offset(output);
         self.values[offset..offset + value.len()].copy_from_slice(value);
         self.sensitivities[output] = limit;
-        let largest = value.iter().fold(0.0, |largest: f64, component| largest.max(component.abs()));
-        self.worst_bound = self.worst_bound.max(bound / f32_spacing(largest));
+        if limit != f64::INFINITY {
+            let missing = value.iter().any(|component| component.is_nan());
+            let largest = value.iter().fold(0.0, |largest: f64, component| largest.max(component.abs()));
+            self.certify(if missing { f64::NAN } else { largest }, bound / f32_spacing(largest));
+        }
     }
 
     /// Notes that plain f64 did not do.
@@ -314,5 +317,22 @@ mod tests {
         assert!(bound(1.0, 1e-12) <= CERTIFIED);
         assert!(bound(f64::NAN, 0.0) > CERTIFIED);
         assert!(bound(1.0, f64::NAN) > CERTIFIED);
+    }
+
+    /// A builtin's value need not be a number where nothing is promised, and only there.
+    #[test]
+    fn a_promise_is_certified() {
+        const OUTPUTS: [Output; 1] = [Output::new("n", Type::Vec3, Quantity::Builtin, 1.0)];
+        let bound = |value: [f64; 3], bound, limit| {
+            let mut truth = Truth::new(&OUTPUTS);
+            truth.builtin(0, &value, bound, limit);
+            truth.worst_bound()
+        };
+        assert!(bound([0.0, 1.0, 0.0], 1e-12, 1e-6) <= CERTIFIED);
+        assert!(bound([f64::NAN; 3], 0.0, f64::INFINITY) <= CERTIFIED);
+        assert!(bound([0.0, f64::NAN, 1.0], 1e-12, 1e-6) > CERTIFIED);
+        assert!(bound([0.0, 1.0, 0.0], f64::NAN, 1e-6) > CERTIFIED);
+        assert!(bound([0.0, 1.0, 0.0], 1.0, 1e-6) > CERTIFIED);
+        assert!(bound([f64::NAN; 3], 0.0, f64::NAN) > CERTIFIED);
     }
 }

@@ -1,6 +1,8 @@
-//! A run's folder: written aside and moved into place when it is whole, so that there is never half a run.
+//! A run's folder: written aside and moved into place when it is whole, so that there is never half a run, and no file of
+//! another kind is touched.
 
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
@@ -12,12 +14,13 @@ const RUN: &str = "run.json";
 const FAILURES: &str = "failures.parquet";
 const BITS: &str = "bits.parquet";
 
-/// A folder being written.
+/// A run's files; the record, without which a folder holds no run, is the last to come.
+const FILES: [&str; 3] = [FAILURES, BITS, RUN];
+
+/// A folder to be written.
 #[derive(Debug)]
 pub struct Folder {
     target: PathBuf,
-    draft: TempDir,
-    replace: bool,
     /// A file in the target that ends with the run.
     journal: Option<&'static str>,
 }
@@ -33,60 +36,79 @@ impl Folder {
                 return Err(Error::Occupied { path: target.to_owned() });
             }
         } else if target.exists() {
-            return Err(io("use as a folder", std::io::ErrorKind::NotADirectory.into()));
+            return Err(io("use as a folder", io::ErrorKind::NotADirectory.into()));
         }
-        Self::beside(target, replace, None)
+        // Whatever ends the program, nothing is left behind until there is a run: this draft goes again at once.
+        draft(target)?;
+        Ok(Folder { target: target.to_owned(), journal: None })
     }
 
     /// As [`create`](Self::create), for a run that keeps the file `journal` in its target until it is finished: a folder
-    /// that holds one is a run to go on with.
+    /// that holds one is a run to go on with, and may hold the earlier run that is to be replaced, but nothing else.
     pub fn resume(target: &Path, replace: bool, journal: &'static str) -> Result<Folder, Error> {
-        if target.join(journal).is_file() {
-            return Self::beside(target, replace, Some(journal));
+        if !target.join(journal).is_file() {
+            return Ok(Folder { journal: Some(journal), ..Self::create(target, replace)? });
         }
-        Ok(Folder { journal: Some(journal), ..Self::create(target, replace)? })
+        let io = |source| Error::Io { action: "read", path: target.to_owned(), source };
+        for entry in fs::read_dir(target).map_err(io)? {
+            let name = entry.map_err(io)?.file_name();
+            if !FILES.iter().chain([&journal]).any(|own| name == **own) {
+                return Err(Error::Foreign { path: target.join(name) });
+            }
+        }
+        draft(target)?;
+        Ok(Folder { target: target.to_owned(), journal: Some(journal) })
     }
 
-    fn beside(target: &Path, replace: bool, journal: Option<&'static str>) -> Result<Folder, Error> {
-        let io = |action, source| Error::Io { action, path: target.to_owned(), source };
-        let parent = match target.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
-        };
-        fs::create_dir_all(parent).map_err(|source| io("create", source))?;
-        let draft = tempfile::Builder::new()
-            .prefix(".rootq-")
-            .tempdir_in(parent)
-            .map_err(|source| io("write to", source))?;
-        Ok(Folder { target: target.to_owned(), draft, replace, journal })
-    }
-
-    /// Writes the record and moves the folder into place; returns where that is.
+    /// Writes the record and moves it into place; returns where that is.
     pub fn finish(self, run: &Run, evidence: &[Evidence]) -> Result<PathBuf, Error> {
-        let path = self.draft.path().join(RUN);
-        let io = |action, path: &Path| {
-            let path = path.to_owned();
-            move |source| Error::Io { action, path, source }
-        };
+        let draft = draft(&self.target)?;
+        let path = draft.path().join(RUN);
         let mut text =
             serde_json::to_string(run).map_err(|source| Error::Json { path: path.clone(), source })?;
         text.push('\n');
-        fs::write(&path, text).map_err(io("write", &path))?;
-        failures::write(&self.draft.path().join(FAILURES), evidence)?;
-        bits::write(&self.draft.path().join(BITS), evidence)?;
-
-        if let Some(journal) = self.journal.map(|name| self.target.join(name)).filter(|path| path.is_file()) {
-            fs::remove_file(&journal).map_err(io("remove", &journal))?;
-        }
-        if self.replace && self.target.join(RUN).is_file() {
-            fs::remove_dir_all(&self.target).map_err(io("replace", &self.target))?;
-        } else if self.target.is_dir() {
-            fs::remove_dir(&self.target).map_err(io("replace", &self.target))?;
-        }
-        let draft = self.draft.keep();
-        fs::rename(&draft, &self.target).map_err(io("write", &self.target))?;
-        open_permissions(&self.target);
+        fs::write(&path, text).map_err(|source| Error::Io { action: "write", path, source })?;
+        failures::write(&draft.path().join(FAILURES), evidence)?;
+        bits::write(&draft.path().join(BITS), evidence)?;
+        // The run is whole: from here on it outlives whatever goes wrong.
+        let draft = draft.keep();
+        self.place(&draft).map_err(|source| Error::Left { draft, path: self.target.clone(), source })?;
         Ok(self.target)
+    }
+
+    /// The journal goes last: until then the work can be repeated from it.
+    fn place(&self, draft: &Path) -> io::Result<()> {
+        if self.target.is_dir() {
+            // There is no run while there are files of two.
+            remove(&self.target.join(RUN))?;
+            for file in FILES {
+                fs::rename(draft.join(file), self.target.join(file))?;
+            }
+            fs::remove_dir(draft)?;
+        } else {
+            fs::rename(draft, &self.target)?;
+            open_permissions(&self.target);
+        }
+        self.journal.map_or(Ok(()), |journal| remove(&self.target.join(journal)))
+    }
+}
+
+/// An empty folder beside `target`, from where files can be moved to it.
+fn draft(target: &Path) -> Result<TempDir, Error> {
+    let io = |action| move |source| Error::Io { action, path: target.to_owned(), source };
+    let parent = match target.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    fs::create_dir_all(parent).map_err(io("create"))?;
+    tempfile::Builder::new().prefix(".rootq-").tempdir_in(parent).map_err(io("write to"))
+}
+
+/// Removes a file, if it is there.
+fn remove(file: &Path) -> io::Result<()> {
+    match fs::remove_file(file) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
     }
 }
 
@@ -105,7 +127,7 @@ pub fn read(path: &Path) -> Result<Recorded, Error> {
     let file = path.join(RUN);
     let text = match fs::read(&file) {
         Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
             return Err(Error::NoRun { path: path.to_owned() });
         }
         Err(source) => return Err(Error::Io { action: "read", path: file, source }),
@@ -182,5 +204,86 @@ mod tests {
         // Even with `replace`, only runs are replaced.
         assert!(matches!(Folder::create(parent.path(), true), Err(Error::Occupied { .. })));
         assert!(matches!(Folder::create(&parent.path().join("notes.txt"), true), Err(Error::Io { .. })));
+    }
+
+    const JOURNAL: &str = "journal";
+
+    fn run() -> Run {
+        serde_json::from_value(serde_json::json!({
+            "schema": SCHEMA,
+            "program": { "version": "", "revision": "", "dirty": false, "compiler": "" },
+            "command": [],
+            "started": "",
+            "seconds": 0.0,
+            "host": { "os": "", "arch": "", "threads": 1 },
+            "device": {
+                "index": 0, "name": "", "kind": "", "uuid": "", "vendor_id": 0, "device_id": 0, "driver": "",
+                "driver_info": "", "driver_version": 0, "api_version": "", "subgroup_size": 1,
+                "shader_float64": false, "shader_float16": false, "float_controls": null,
+                "max_storage_buffer_range": 0, "unified_memory": true, "timestamp_period": 1.0,
+                "timestamp_bits": 0, "validation": false
+            },
+            "settings": { "seed": 1, "configurations": 0, "chunk": 1, "max_failures": 0 },
+            "families": []
+        }))
+        .unwrap()
+    }
+
+    fn entries(folder: &Path) -> Vec<String> {
+        let names =
+            fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = names.collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn nothing_is_left_behind_before_there_is_a_run() {
+        let parent = tempfile::tempdir().unwrap();
+        let _folder = Folder::create(&parent.path().join("run"), false).unwrap();
+        assert!(entries(parent.path()).is_empty());
+    }
+
+    #[test]
+    fn a_journal_among_other_files_is_refused() {
+        let parent = tempfile::tempdir().unwrap();
+        for file in [JOURNAL, RUN, FAILURES] {
+            fs::write(parent.path().join(file), "").unwrap();
+            assert!(Folder::resume(parent.path(), false, JOURNAL).is_ok(), "{file}");
+        }
+        fs::write(parent.path().join("notes.txt"), "mine").unwrap();
+        let error = Folder::resume(parent.path(), true, JOURNAL).unwrap_err();
+        assert!(matches!(&error, Error::Foreign { path } if path.ends_with("notes.txt")), "{error}");
+    }
+
+    /// Also when they come while the work is done.
+    #[test]
+    fn other_files_neither_hinder_a_run_nor_go_with_one() {
+        let parent = tempfile::tempdir().unwrap();
+        let target = parent.path().join("run");
+        fs::create_dir(&target).unwrap();
+        fs::write(target.join(JOURNAL), "").unwrap();
+        let folder = Folder::resume(&target, false, JOURNAL).unwrap();
+        fs::write(target.join("notes.txt"), "mine").unwrap();
+        folder.finish(&run(), &[]).unwrap();
+        assert_eq!(entries(&target), [BITS, FAILURES, "notes.txt", RUN]);
+        Folder::create(&target, true).unwrap().finish(&run(), &[]).unwrap();
+        assert_eq!(entries(&target), [BITS, FAILURES, "notes.txt", RUN]);
+        assert_eq!(entries(parent.path()), ["run"]);
+    }
+
+    #[test]
+    fn a_run_that_cannot_be_moved_is_kept_with_its_journal() {
+        let parent = tempfile::tempdir().unwrap();
+        let target = parent.path().join("run");
+        fs::create_dir(&target).unwrap();
+        fs::write(target.join(JOURNAL), "").unwrap();
+        let folder = Folder::resume(&target, false, JOURNAL).unwrap();
+        // A folder that is not empty cannot be replaced by a file.
+        fs::create_dir_all(target.join(FAILURES).join("inner")).unwrap();
+        let error = folder.finish(&run(), &[]).unwrap_err();
+        let Error::Left { draft, .. } = &error else { panic!("{error}") };
+        assert_eq!(entries(draft), [BITS, FAILURES, RUN]);
+        assert!(target.join(JOURNAL).is_file());
     }
 }

@@ -39,6 +39,10 @@ pub enum Error {
     Io { action: &'static str, path: PathBuf, source: std::io::Error },
     #[error("{} is not empty; choose another --out (--force replaces an earlier run)", path.display())]
     Occupied { path: PathBuf },
+    #[error("{} is beside an unfinished run: move it away, or choose another --out", path.display())]
+    Foreign { path: PathBuf },
+    #[error("cannot move the run to {}: it is whole in {}", path.display(), draft.display())]
+    Left { draft: PathBuf, path: PathBuf, source: std::io::Error },
     #[error("cannot write {}", path.display())]
     Json { path: PathBuf, source: serde_json::Error },
     #[error("cannot write {}", path.display())]
