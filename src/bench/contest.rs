@@ -37,6 +37,8 @@ const MAX_REPEATS: usize = 64;
 /// A sample lasts at least so long, and no longer than that for the sake of a long sample.
 const SHORTEST_SAMPLE: Duration = Duration::from_millis(2);
 const LONGEST_SAMPLE: Duration = Duration::from_millis(40);
+/// Trials of each variant, in turns, whose least time says which is the fastest: one alone is as good as its noise.
+const TRIALS: usize = 7;
 /// Rounds that ought to fit into the time given.
 const WANTED_ROUNDS: u32 = 40;
 
@@ -64,12 +66,37 @@ pub struct Contest<'a, D: Device> {
     pub outputs: usize,
     /// Row-major, at least one row; see [`CONFIGURATIONS`].
     pub configurations: &'a [f32],
-    /// Position of the variant to which ratios are taken; `None`: the fastest in a trial before anything is counted.
+    /// Position of the variant to which ratios are taken; `None`: the [fastest](Contest::fastest) in the setting itself.
     pub reference: Option<usize>,
     pub ceilings: Option<&'a Ceilings>,
 }
 
 impl<D: Device> Contest<'_, D> {
+    /// Position of the entrant with the least time of several trials in turns, before anything is counted: a reference
+    /// for rankings in this setting and others. Entrants about as fast may change places from call to call.
+    pub fn fastest(&self, setting: Setting, effort: &Effort, stop: &AtomicBool) -> Result<usize, Stopped> {
+        let times = self.trial(setting, self.sample(effort), stop)?.least(TRIALS)?;
+        Ok(least(&times[..self.entrants.len()]))
+    }
+
+    /// How long a sample is to last, so that the wanted rounds fit; the control and the null kernel come on top.
+    fn sample(&self, effort: &Effort) -> Duration {
+        let sample = effort.time / (WANTED_ROUNDS * (self.entrants.len() as u32 + 2));
+        sample.clamp(SHORTEST_SAMPLE, LONGEST_SAMPLE)
+    }
+
+    fn trial<'b>(
+        &'b self,
+        setting: Setting,
+        sample: Duration,
+        stop: &'b AtomicBool,
+    ) -> Result<Trial<'b, D>, Stopped> {
+        match setting.regime {
+            Regime::Streaming => self.streaming(stop),
+            Regime::Arithmetic => self.arithmetic(setting.inputs, sample, stop),
+        }
+    }
+
     /// Takes the time of all entrants in one setting. `advance` hears of each sample.
     pub fn run(
         &self,
@@ -79,14 +106,9 @@ impl<D: Device> Contest<'_, D> {
         stop: &AtomicBool,
     ) -> Result<(Ranking, Vec<Timing>), Stopped> {
         let entrants = self.entrants.len();
-        // The control and the null kernel come on top.
-        let sample = effort.time / (WANTED_ROUNDS * (entrants as u32 + 2));
-        let sample = sample.clamp(SHORTEST_SAMPLE, LONGEST_SAMPLE);
-        let mut trial = match setting.regime {
-            Regime::Streaming => self.streaming(stop)?,
-            Regime::Arithmetic => self.arithmetic(setting.inputs, sample, stop)?,
-        };
-        let times = trial.measure()?;
+        let sample = self.sample(effort);
+        let mut trial = self.trial(setting, sample, stop)?;
+        let times = trial.least(if self.reference.is_none() { TRIALS } else { 1 })?;
         if times.iter().all(Duration::is_zero) {
             return Err(device::Error::NotSupported {
                 kernel: "timing".to_owned(),
@@ -94,7 +116,7 @@ impl<D: Device> Contest<'_, D> {
             }
             .into());
         }
-        let reference = self.reference.unwrap_or_else(|| fastest(&times[..entrants]));
+        let reference = self.reference.unwrap_or_else(|| least(&times[..entrants]));
         trial.entries.insert(entrants, reference);
         let repeats = trial.entries.iter().map(|program| {
             let needed = sample.as_secs_f64() / times[*program].as_secs_f64().max(1e-9);
@@ -195,7 +217,7 @@ impl<D: Device> Contest<'_, D> {
         let few = LEAST_STREAMED.min(self.rows()).min(most);
         let mut trial =
             Trial::new(self.device, programs, self.upload(few, Coherence::Divergent)?, few, 1, stop);
-        let slowest = trial.measure()?.into_iter().max().unwrap_or_default();
+        let slowest = trial.least(1)?.into_iter().max().unwrap_or_default();
         let fitting = LONGEST.as_secs_f64() / (slowest.as_secs_f64() / few as f64).max(1e-12);
         let wanted = if self.is_software() {
             CONFIGURATIONS
@@ -229,7 +251,7 @@ impl<D: Device> Contest<'_, D> {
         };
         let few = *EVALUATIONS.start();
         let mut trial = Trial::new(self.device, programs(few)?, inputs, rows, few, stop);
-        let slowest = trial.measure()?.into_iter().max().unwrap_or_default();
+        let slowest = trial.least(1)?.into_iter().max().unwrap_or_default();
         let fitting = (4 * sample).min(LONGEST_LOOP).as_secs_f64()
             / (slowest.as_secs_f64() / f64::from(few)).max(1e-12);
         trial.evaluations = (1 << fitting.clamp(1.0, 1e9).log2() as u32).clamp(few, *EVALUATIONS.end());
@@ -238,12 +260,13 @@ impl<D: Device> Contest<'_, D> {
     }
 }
 
-fn fastest(times: &[Duration]) -> usize {
+fn least(times: &[Duration]) -> usize {
     (0..times.len()).min_by_key(|entrant| times[*entrant]).unwrap_or(0)
 }
 
 impl Ceilings {
-    /// The least time that so many operations can take.
+    /// The time that so many operations take at their ceilings, one kind after the other. It is no lower bound where a
+    /// device's units work at once.
     pub fn seconds(&self, operations: &Operations) -> f64 {
         let Operations { flops, divisions, roots, trigonometric, exponential, .. } = *operations;
         [

@@ -100,13 +100,14 @@ pub struct Rank {
     pub last: usize,
 }
 
-/// Parts of what the device could do, in 0..1 but for errors of measurement.
+/// Parts of what the device could do.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Share {
-    /// Bytes of columns moved a second, over the best copy kernel's.
+    /// Bytes of columns moved a second, over the best copy kernel's: at most 1, but for errors of measurement and caches.
     pub bandwidth: f64,
-    /// The time that the counted operations take at their ceilings, over the time measured. With loops in the text,
-    /// which count once, it is too low; with branches, of which both sides count, too high.
+    /// The time that the counted operations take at their ceilings, one kind after the other, over the time measured:
+    /// above 1 where a device's units work at once. With loops in the text, which count once, it is too low; with
+    /// branches, of which both sides count, too high.
     pub arithmetic: f64,
 }
 

@@ -74,14 +74,18 @@ impl<'a, D: Device> Trial<'a, D> {
         Ok(elapsed.time)
     }
 
-    /// The time of one submission of each program, after one that may pay for first use.
-    pub(super) fn measure(&mut self) -> Result<Vec<Duration>, Stopped> {
-        (0..self.programs.len())
-            .map(|program| {
-                self.submission(program)?;
-                self.submission(program)
-            })
-            .collect()
+    /// The least time of so many submissions of each program, taken in turns, after one that may pay for first use.
+    pub(super) fn least(&mut self, trials: usize) -> Result<Vec<Duration>, Stopped> {
+        for program in 0..self.programs.len() {
+            self.submission(program)?;
+        }
+        let mut times = vec![Duration::MAX; self.programs.len()];
+        for _ in 0..trials {
+            for (program, time) in times.iter_mut().enumerate() {
+                *time = self.submission(program)?.min(*time);
+            }
+        }
+        Ok(times)
     }
 }
 

@@ -25,7 +25,8 @@ pub(super) struct TimingArguments {
     /// Only this regime; may be given again [default: both]
     #[arg(long, value_name = "REGIME", value_enum)]
     regime: Vec<RegimeName>,
-    /// Variant to which ratios of times are taken [default: the fastest in a trial before anything is counted]
+    /// Variant to which ratios of times are taken [default: the fastest in a few trials before anything
+    /// is counted, the same for all of a scenario's times]
     #[arg(long, value_name = "VARIANT")]
     reference: Option<String>,
     /// Take times from the host's clock, around submission and fence, also where the device has timestamps
@@ -174,7 +175,7 @@ impl<'a> Timer<'a> {
         let configurations =
             Chunk::draw_inputs(timed.problem, timed.scenario, timed.seed, 0, bench::CONFIGURATIONS);
         let reference = self.arguments.reference.as_ref();
-        let contest = Contest {
+        let mut contest = Contest {
             device,
             entrants: (0..timed.variants.len()).map(entrant).collect(),
             null: Entrant {
@@ -196,6 +197,10 @@ impl<'a> Timer<'a> {
             "{human_pos} samples {elapsed}",
         );
         let mut effort = self.effort;
+        // One reference for all settings, or their ratios could not be read together: from the setting that ranks.
+        if let (None, Some(setting)) = (contest.reference, self.arguments.settings().last()) {
+            contest.reference = Some(contest.fastest(setting, &effort, stop)?);
+        }
         let mut results = Vec::new();
         for setting in self.arguments.settings() {
             results.push(contest.run(setting, &effort, &|| bar.inc(1), stop)?);

@@ -224,7 +224,8 @@ fn ceiling_lines(ceilings: &Ceilings) -> String {
     format!(
         "Ceilings of this run, 10^9 a second: bytes copied {}, f32 operations {},\n\
          inversesqrt {}, division {}, sin {}, exp2 {}.\n\
-         of copy, of ops: shares of them; operations counted from the text: > too low for loops, < too high for branches.\n",
+         of copy, of ops: shares of them, kinds of operations one after the other (above 100 % where units work at once);\n\
+         operations counted from the text: > too low for loops, < too high for branches.\n",
         giga(copy),
         giga(multiply_add),
         giga(inverse_sqrt),
