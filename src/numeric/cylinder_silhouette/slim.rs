@@ -48,7 +48,8 @@ impl Slim {
     /// The irradiance, and what it is off by at the most for these corners and rims. Derivatives are collected as
     /// [`Silhouette::walk`] has them.
     ///
-    /// Against double-double, errors were below 1.5 EPS of the sizes (400 000 cylinders); 3 are promised.
+    /// 3 EPS of the sizes are promised: with what the inputs' own roundings add, errors against double-double were below
+    /// 0.51 of the whole bound (290 000 cylinders, observed and not proved).
     pub(super) fn integrate(&self, derivatives: &mut Derivatives) -> (f64, f64) {
         let &Slim { ref arcs, corners, chord } = self;
         let (mut value, mut size, mut truncation) = (0.0, 0.0, 0.0);
