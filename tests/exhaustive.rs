@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::tempdir;
 
-/// 2^17 bit patterns, half of them in one part and half in the next; among them 2, where `exp`'s limit changes.
+/// 2^17 bit patterns, half of them in one part and half in the next: 1.99 to 2.03, where most results of two parabolas are
+/// not a sine.
 const RANGE: &str = "0x3fff0000..0x4000ffff";
 
 fn rootq(arguments: &[&str], out: &Path) -> Command {
@@ -18,7 +19,7 @@ fn rootq(arguments: &[&str], out: &Path) -> Command {
     command
         .env("VK_DRIVER_FILES", drivers::both().unwrap_or_else(|message| panic!("{message}")))
         .env_remove("ROOTQ_VULKAN_LOADER")
-        .args(["audit", "exp/native", "--exhaustive", "--device", "llvmpipe", "--out"])
+        .args(["audit", "sin/parabola_refined", "--exhaustive", "--device", "llvmpipe", "--out"])
         .arg(out)
         .args(arguments)
         .stdout(Stdio::piped())
@@ -59,6 +60,10 @@ fn an_interrupted_audit_goes_on_to_the_same_bytes() {
     let run: Value = serde_json::from_str(&fs::read_to_string(whole.join("run.json")).unwrap()).unwrap();
     let audit = &run["families"][0]["variants"][0]["results"][0]["audit"];
     assert_eq!(audit["configurations"], 1 << 17);
+    assert!(
+        audit["failed"]["count"].as_u64().unwrap() > 100,
+        "more than are kept, so that which are matters: {audit}"
+    );
 
     // Chunks of 16 take seconds, so there is time to interrupt the second part.
     let mut child = rootq(&["--bits", RANGE, "--chunk", "16"], &broken).spawn().unwrap();
@@ -75,14 +80,24 @@ fn an_interrupted_audit_goes_on_to_the_same_bytes() {
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(130), "{stderr}");
     assert!(stderr.contains("1 of 2 parts are kept") && stderr.contains("goes on"), "{stderr}");
+    assert!(stderr.contains("1 of 2 parts, about ") && stderr.contains(" to go"), "{stderr}");
     assert_eq!((entries(&broken), lines(&journal)), (vec!["journal.jsonl".into()], 2));
     assert_eq!(entries(folder.path()), ["broken", "whole"], "a draft was left behind");
+
+    // What else is in the folder would be in the way of the results.
+    let notes = broken.join("notes.txt");
+    fs::write(&notes, "mine").unwrap();
+    let refused = ends(rootq(&["--bits", RANGE], &broken), 2);
+    assert!(refused.contains("notes.txt is beside an unfinished run"), "{refused}");
+    fs::remove_file(&notes).unwrap();
 
     // Another range is another job.
     let refused = ends(rootq(&["--bits", "0x0..0x10"], &broken), 2);
     assert!(refused.contains("its bits differs"), "{refused}");
     let stderr = ends(rootq(&["--bits", RANGE], &broken), 0);
     assert!(stderr.contains("going on after 1 of 2 parts"), "{stderr}");
+    // The bar, or on no terminal the estimate, counts from here: after the last part there is nothing to go.
+    assert!(!stderr.contains("to go"), "{stderr}");
     assert_eq!(entries(&broken), entries(&whole));
     assert!(outcome(&whole) == outcome(&broken), "an interruption shows in the outcome");
 }

@@ -68,7 +68,8 @@ fn tolerances(family: &str) -> HashMap<String, (f64, Option<String>)> {
         .collect()
 }
 
-/// The relative error allowed of an output; an angle in radians of a direction.
+/// The relative error allowed of an output, of a vector's distance relative to its length; an angle in radians of a
+/// direction.
 fn tolerance(tolerances: &HashMap<String, (f64, Option<String>)>, output: &str, row: &Row) -> f64 {
     SCALAR
         + match tolerances.get(output) {
@@ -78,17 +79,17 @@ fn tolerance(tolerances: &HashMap<String, (f64, Option<String>)>, output: &str, 
         }
 }
 
-/// The distance allowed of a vector that has a length, relative to it.
-fn vector_tolerance(family: &str, output: &str, row: &Row) -> f64 {
-    _ = (family, output, row);
-    SCALAR
-}
-
 fn check(problem: &dyn Problem) -> usize {
     let family = problem.name();
     let signature = problem.signature();
     let rows = golden(family);
     let tolerances = tolerances(family);
+    for name in tolerances.keys() {
+        let output = problem.outputs().iter().find(|output| output.field.name == name);
+        let output = output.unwrap_or_else(|| panic!("{family}: a tolerance of {name}, which is no output"));
+        let fixed = matches!(output.quantity, Quantity::Property | Quantity::Builtin);
+        assert!(!fixed, "{family}: {name} takes no tolerance");
+    }
     assert!(rows.len() >= 20 * problem.scenarios().len(), "{family}: only {} golden rows", rows.len());
     let mut compared = 0;
     for row in &rows {
@@ -158,7 +159,7 @@ fn check(problem: &dyn Problem) -> usize {
                     let (got, expected) = (glam::DVec3::from_slice(got), glam::DVec3::from_slice(&expected));
                     let sign = if sign_free && got.dot(expected) < 0.0 { -1.0 } else { 1.0 };
                     let error = (got - sign * expected).length();
-                    let allowed = vector_tolerance(family, name, row) * expected.length();
+                    let allowed = tolerance(&tolerances, name, row) * expected.length();
                     assert!(
                         error <= allowed,
                         "{place}: {name} {got} for {expected}: {error:e} > {allowed:e}"

@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 use anyhow::{Result, anyhow, bail};
 use clap::Args;
+use indicatif::{HumanDuration, ProgressBar};
 use serde_json::{Map, Value, json};
 
 use super::run::{self, Arguments, Measured, Prepared};
@@ -15,7 +16,7 @@ use crate::audit::{MAX_CHUNK, Sweep};
 use crate::catalog::Catalog;
 use crate::device::{Device, Facts};
 use crate::family::FAMILIES;
-use crate::job::{self, JOURNAL, Journal};
+use crate::job::{self, JOURNAL, Journal, Progress};
 use crate::record::{self, Evidence, Folder};
 
 /// Options of an exhaustive audit.
@@ -98,6 +99,12 @@ pub(super) fn audit(
     if journal.finished() > 0 {
         eprintln!("going on after {} of {parts} parts", journal.finished());
     }
+    let patterns = range.end - range.start;
+    let left = families.iter().map(|family| {
+        let left = patterns - job::kept(&journal, family.selected.problem.name());
+        left * family.programs.len() as u64
+    });
+    let ahead = Ahead::new(left.sum(), journal.finished() as u64, parts);
     let mut evidence = Vec::new();
     for family in &mut families {
         let sweep = Sweep {
@@ -106,7 +113,9 @@ pub(super) fn audit(
             chunk: arguments.chunk.min(MAX_CHUNK as u64) as usize,
             max_failures: arguments.max_failures,
         };
-        if let Err(error) = exhaust(family, &sweep, &machine.device, &mut journal, stop, &mut evidence) {
+        if let Err(error) =
+            exhaust(family, &sweep, &machine.device, &mut journal, &ahead, stop, &mut evidence)
+        {
             if stop.load(Ordering::Relaxed) {
                 return Err(Kept { finished: journal.finished(), parts, folder: target }.into());
             }
@@ -122,6 +131,57 @@ pub(super) fn audit(
         evidence,
     };
     run::finish(arguments, (start, started), folder, measured)
+}
+
+/// What is ahead of this process, over all families.
+#[derive(Debug)]
+struct Ahead {
+    start: Instant,
+    /// Evaluations that no journal held at the start.
+    total: u64,
+    done: AtomicU64,
+    finished: AtomicU64,
+    kept: u64,
+    parts: u64,
+}
+
+impl Ahead {
+    fn new(total: u64, kept: u64, parts: u64) -> Self {
+        let (done, finished) = (AtomicU64::new(0), AtomicU64::new(kept));
+        Ahead { start: Instant::now(), total, done, finished, kept, parts }
+    }
+
+    /// A part more is finished: a line for where there is no bar, after this process's first part and then every tenth.
+    fn finished_part(&self, elapsed: Duration) -> Option<String> {
+        let finished = self.finished.fetch_add(1, Ordering::Relaxed) + 1;
+        let wanted = (finished - self.kept) % 10 == 1 && finished < self.parts;
+        let done = self.done.load(Ordering::Relaxed);
+        if !wanted || done == 0 {
+            return None;
+        }
+        let left = elapsed.mul_f64(self.total.saturating_sub(done) as f64 / done as f64);
+        Some(format!("{finished} of {} parts, about {} to go", self.parts, HumanDuration(left)))
+    }
+}
+
+/// A bar on a terminal, lines elsewhere.
+struct Shown<'a> {
+    ahead: &'a Ahead,
+    bar: &'a ProgressBar,
+}
+
+impl Progress for Shown<'_> {
+    fn advance(&self, evaluations: u64) {
+        self.ahead.done.fetch_add(evaluations, Ordering::Relaxed);
+        self.bar.inc(evaluations);
+    }
+
+    fn finished_part(&self) {
+        let line = self.ahead.finished_part(self.ahead.start.elapsed());
+        if let Some(line) = line.filter(|_| self.bar.is_hidden()) {
+            eprintln!("{line}");
+        }
+    }
 }
 
 /// All that the results depend on.
@@ -156,6 +216,7 @@ fn exhaust<D: Device<Program = crate::device::vulkan::Program>>(
     sweep: &Sweep<'_>,
     device: &D,
     journal: &mut Journal,
+    ahead: &Ahead,
     stop: &AtomicBool,
     evidence: &mut Vec<Evidence>,
 ) -> Result<()> {
@@ -164,7 +225,11 @@ fn exhaust<D: Device<Program = crate::device::vulkan::Program>>(
     let total = (sweep.range.end - sweep.range.start) * family.programs.len() as u64;
     let label = format!("audit {}, all bits", problem.name());
     let bar = run::bar(total, &label, "{human_pos} of {human_len}  {elapsed}, {eta} to go");
-    let audited = job::exhaust(device, &family.programs, sweep, journal, &|count| bar.inc(count), stop)
+    bar.set_position(job::kept(journal, problem.name()) * family.programs.len() as u64);
+    // The time to go is told from what this process does.
+    bar.reset_eta();
+    let shown = Shown { ahead, bar: &bar };
+    let audited = job::exhaust(device, &family.programs, sweep, journal, &shown, stop)
         .map_err(|error| anyhow!(error))?;
     bar.finish_and_clear();
     for (summary, place) in audited.summaries.iter().zip(&family.places) {
@@ -200,7 +265,24 @@ fn exhaust<D: Device<Program = crate::device::vulkan::Program>>(
 
 #[cfg(test)]
 mod tests {
-    use super::range;
+    use std::sync::atomic::Ordering;
+    use std::time::Duration;
+
+    use super::{Ahead, range};
+
+    #[test]
+    fn the_time_to_go_does_not_count_what_was_kept() {
+        let ahead = Ahead::new(400, 60, 100);
+        let mut lines = Vec::new();
+        for part in 1..=40 {
+            ahead.done.fetch_add(10, Ordering::Relaxed);
+            lines.extend(ahead.finished_part(Duration::from_secs(60 * part)));
+        }
+        let expected = [(61, 39), (71, 29), (81, 19), (91, 9)];
+        let expected =
+            expected.map(|(part, left)| format!("{part} of 100 parts, about {left} minutes to go"));
+        assert_eq!(lines, expected);
+    }
 
     #[test]
     fn ranges_include_both_ends() {

@@ -21,6 +21,7 @@ use std::io::IsTerminal;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand};
 
@@ -112,9 +113,12 @@ pub fn main() -> ExitCode {
     };
     let stop = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&stop);
+    let mut first = None;
     let handler = ctrlc::set_handler(move || {
-        // The second time nobody waits for the chunk in flight.
-        if raised.swap(true, Ordering::Relaxed) {
+        raised.store(true, Ordering::Relaxed);
+        // The second time nobody waits for the chunk in flight. But `timeout` signals its child and then the child's
+        // process group, as service managers do: that is one wish.
+        if first.get_or_insert_with(Instant::now).elapsed() > ONE_WISH {
             std::process::exit(INTERRUPTED.into());
         }
     });
@@ -168,6 +172,9 @@ impl From<()> for Outcome {
 const VIOLATED: u8 = 1;
 const AT_FAULT: u8 = 2;
 const INTERRUPTED: u8 = 130;
+
+/// Signals within this time of the first are one.
+const ONE_WISH: Duration = Duration::from_secs(1);
 
 /// Help and version as they are; a wrong call as one line.
 fn usage(error: &clap::Error) -> ExitCode {

@@ -22,8 +22,16 @@ pub enum Error {
     Journal(#[from] journal::Error),
 }
 
-/// Audits `programs` over every bit pattern of `sweep`, going on where the journal ends. `advance` hears of evaluations
-/// that the journal holds too.
+/// Who hears how far a job is.
+pub trait Progress: Sync {
+    /// So many evaluations more, those in the journal apart.
+    fn advance(&self, evaluations: u64);
+
+    /// The journal holds a part more.
+    fn finished_part(&self);
+}
+
+/// Audits `programs` over every bit pattern of `sweep`, going on where the journal ends.
 ///
 /// The outcome is the same however often the work was interrupted: parts merge by integer addition and maxima.
 pub fn exhaust<D: Device>(
@@ -31,7 +39,7 @@ pub fn exhaust<D: Device>(
     programs: &[D::Program],
     sweep: &Sweep<'_>,
     journal: &mut Journal,
-    advance: &dyn Fn(u64),
+    progress: &dyn Progress,
     stop: &AtomicBool,
 ) -> Result<Audited, Error> {
     let family = sweep.problem.name();
@@ -50,17 +58,18 @@ pub fn exhaust<D: Device>(
     let mut next = sweep.range.start;
     for part in journal.parts(family) {
         merge(part);
-        advance((part.range.end - part.range.start) * programs.len() as u64);
         next = part.range.end;
     }
     while next < sweep.range.end {
         let range = next..part_end(next).min(sweep.range.end);
         let part = Sweep { range: range.clone(), ..sweep.clone() };
-        let Audited { oracle, inputs, summaries } = audit::sweep(device, programs, &part, advance, stop)?;
+        let Audited { oracle, inputs, summaries } =
+            audit::sweep(device, programs, &part, &|count| progress.advance(count), stop)?;
         let part = Part { family: family.to_owned(), range, oracle, inputs, summaries };
         merge(&part);
         next = part.range.end;
         journal.add(part)?;
+        progress.finished_part();
     }
     Ok(whole)
 }
@@ -68,6 +77,11 @@ pub fn exhaust<D: Device>(
 /// The end of the part that begins at `first`.
 fn part_end(first: u64) -> u64 {
     (first / PART + 1) * PART
+}
+
+/// How many bit patterns of a family the journal holds.
+pub fn kept(journal: &Journal, family: &str) -> u64 {
+    journal.parts(family).map(|part| part.range.end - part.range.start).sum()
 }
 
 /// How many parts a range has.

@@ -86,7 +86,7 @@ const COPY: Source = Source {
 };
 
 /// Samples of each probe: what rounds wrongly once in ten thousand is seen with certainty.
-const SAMPLES: usize = 1 << 17;
+pub const SAMPLES: usize = 1 << 17;
 
 /// A sample of rows; the same every time.
 fn sample(name: &str, draw: impl Fn(&mut Draw, &mut Vec<f32>)) -> Vec<f32> {

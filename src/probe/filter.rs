@@ -13,6 +13,9 @@ const FILTER: Source = Source {
     results: &["texel"],
 };
 
+/// The table that the kernel samples.
+const TABLE: &str = "sphere_lut";
+
 /// Steps between two texels; weights finer than these are not told apart.
 const STEPS: u32 = 1 << 12;
 
@@ -22,7 +25,7 @@ pub(super) fn bits<D: Device>(device: &D) -> Result<Option<u32>, Error> {
     if device.facts().table_image_bits == 0 {
         return Ok(None);
     }
-    let (x, y) = steepest();
+    let (x, y) = steepest(TABLE).ok_or(Error::Table(TABLE))?;
     let rows: Vec<f32> =
         (0..STEPS).flat_map(|step| [x as f32 + step as f32 / STEPS as f32, y as f32]).collect();
     let values = run(device, &FILTER, &rows)?.swap_remove(0);
@@ -31,9 +34,8 @@ pub(super) fn bits<D: Device>(device: &D) -> Result<Option<u32>, Error> {
 }
 
 /// The texel that differs most from its neighbour to the right: steps between them are far above f32's own.
-fn steepest() -> (u32, u32) {
-    let table = tables().iter().find(|table| table.name == "sphere_lut");
-    let Some(table) = table else { return (0, 0) };
+fn steepest(name: &str) -> Option<(u32, u32)> {
+    let table = tables().iter().find(|table| table.name == name)?;
     let texels = table.texels();
     let steepness = |(x, y): &(u32, u32)| {
         let at = (y * table.width + x) as usize;
@@ -42,5 +44,15 @@ fn steepest() -> (u32, u32) {
     (0..table.height)
         .flat_map(|y| (0..table.width - 1).map(move |x| (x, y)))
         .max_by(|a, b| steepness(a).total_cmp(&steepness(b)))
-        .unwrap_or((0, 0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sampled_table_is_there() {
+        assert!(steepest(TABLE).is_some() && FILTER.text.contains(TABLE));
+        assert_eq!(steepest("another"), None);
+    }
 }

@@ -10,6 +10,8 @@ pub enum Error {
     Device(#[from] device::Error),
     #[error(transparent)]
     Catalog(#[from] catalog::Error),
+    #[error("there is no table {0} with texels to interpolate between")]
+    Table(&'static str),
 }
 
 /// One kernel: its text in this folder, its inputs and results.

@@ -13,7 +13,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-pub use arithmetic::{Exactness, Fused, Fusing, Rounding, Subnormals};
+pub use arithmetic::{Exactness, Fused, Fusing, Rounding, SAMPLES, Subnormals};
 pub use kernels::Error;
 pub use special::Observation;
 

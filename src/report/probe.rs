@@ -5,7 +5,7 @@ use comfy_table::{Cell, Color};
 use super::numbers::short;
 use super::table;
 use crate::device::Facts;
-use crate::probe::{Exactness, Fusing, Probe, Rounding};
+use crate::probe::{Exactness, Fusing, Observation, Probe, Rounding, SAMPLES};
 
 /// What each device does.
 pub fn probes(probed: &[(Facts, Probe)], colour: bool) -> String {
@@ -37,7 +37,7 @@ pub fn probes(probed: &[(Facts, Probe)], colour: bool) -> String {
     for at in 0..expressions {
         row(&probed[0].1.special[at].expression, &|probe| {
             let observed = &probe.special[at];
-            let cell = Cell::new(&observed.value);
+            let cell = Cell::new(special(observed));
             if observed.value == observed.ieee { cell } else { cell.fg(Color::Yellow) }
         });
     }
@@ -48,7 +48,16 @@ pub fn probes(probed: &[(Facts, Probe)], colour: bool) -> String {
             Some(bits) => bits.to_string(),
         })
     });
-    table::lines(&table)
+    format!(
+        "{}\nAn error \"up to\" so many ULP is the worst of {SAMPLES} samples; other inputs may be further off.\n",
+        table::lines(&table)
+    )
+}
+
+/// Where it departs from IEEE 754, that too.
+fn special(observed: &Observation) -> String {
+    let Observation { value, ieee, .. } = observed;
+    if value == ieee { value.clone() } else { format!("{value} (IEEE: {ieee})") }
 }
 
 fn fusing(fusing: Fusing) -> &'static str {
@@ -72,4 +81,20 @@ fn exactness(exactness: &Exactness) -> String {
         return "correctly rounded".to_owned();
     }
     format!("up to {} ULP", short(Some(exactness.worst_ulp).filter(|ulp| ulp.is_finite())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::special;
+    use crate::probe::Observation;
+
+    #[test]
+    fn departures_are_told_without_colour() {
+        let observed = |value: &str| {
+            let [expression, value, ieee] = ["log(-1)", value, "NaN"].map(str::to_owned);
+            special(&Observation { expression, value, ieee })
+        };
+        assert_eq!(observed("NaN"), "NaN");
+        assert_eq!(observed("0"), "0 (IEEE: NaN)");
+    }
 }
