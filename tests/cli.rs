@@ -60,8 +60,10 @@ fn table(folder: &TempDir, text: &str) -> PathBuf {
 #[test]
 fn wrong_calls_are_refused_in_one_line() {
     let cases: &[(&[&str], &str)] = &[
-        (&["run", "-n", "0"], "must be at least 1"),
-        (&["run", "-n", "-5"], "must be at least 1"),
+        (&["run", "-n", "0"], "a whole number from 1 to 2^53"),
+        (&["run", "-n", "-5"], "a whole number from 1 to 2^53"),
+        (&["run", "-n", "1e30"], "a whole number from 1 to 2^53"),
+        (&["run", "-n", "1.5"], "a whole number, such as"),
         (&["run", "-n", "many"], "a count is a number"),
         (&["run", "--bogus"], "unexpected argument '--bogus'"),
         (&["bogus"], "unrecognized subcommand 'bogus'"),
@@ -75,6 +77,12 @@ fn wrong_calls_are_refused_in_one_line() {
         (&["bench", "--seconds", "0"], "--seconds must be above 0"),
         (&["bench", "ellipse_axes", "--reference", "nave"], "did you mean 'naive'?"),
         (&["bench", "--regime", "random"], "streaming"),
+        (&["audit", "--seconds", "1"], "unexpected argument '--seconds'"),
+        (&["audit", "--regime", "streaming"], "unexpected argument '--regime'"),
+        (&["run", "sin", "--exhaustive"], "unexpected argument '--exhaustive'"),
+        (&["bench", "sin", "--exhaustive"], "unexpected argument '--exhaustive'"),
+        (&["bench", "-n", "1M"], "unexpected argument '-n'"),
+        (&["bench", "--max-failures", "3"], "unexpected argument '--max-failures'"),
         (&["list", "elipse"], "unknown family 'elipse'"),
         (&["eval", "ellipse_axes"], "--inputs"),
         (&["eval", "nothing", "--inputs", "x"], "unknown family 'nothing'"),

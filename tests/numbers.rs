@@ -14,23 +14,24 @@ mod orthographic_disk;
 #[path = "../examples/solid_angle_test_cases.rs"]
 mod solid_angle_test_cases;
 
-/// How far off 4 pi/6 a face of 64 x 64 may be, relatively.
-fn face_tolerance(variant: &str) -> f64 {
-    match variant {
+/// How far off 4 pi/6 a face of 64 x 64 may be, relatively; `None` where the errors of its pixels bound nothing.
+fn face_tolerance(variant: &str) -> Option<f64> {
+    let tolerance = match variant {
         // An arctangent of the device, off by 2e-5 of a small angle on lavapipe.
         "oosterom" => 3e-5,
         // Four arctangents of up to 1, each off by as much, which telescope to those along the face's rim.
         "four_atan" | "four_atan_arctangent" => 1e-4,
-        // Six angles of about a right one for each of 4096 pixels, each off by the device's acos or atan: 5e-5 times
-        // 6 times 4096 over 2.1 is a half, if all are off to one side.
-        "girard" | "girard_atan2" => 0.5,
+        // Six angles of about a right one for each of 4096 pixels, each off by up to 5e-5 with the device's acos or
+        // atan: if all are off to one side, half of the face.
+        "girard" | "girard_atan2" => return None,
         // A sixth of side^2 at the middle of the face, less towards its corners: (1/32)^2/4 at most.
         "midpoint" => 2.5e-4,
         // The fourth power of the side.
         "gauss2" => 1e-6,
         // A dozen roundings, all their errors of one sign.
         _ => 1e-6,
-    }
+    };
+    Some(tolerance)
 }
 
 #[test]
@@ -42,8 +43,10 @@ fn a_cubes_face_is_a_sixth_of_the_sphere() {
         if name == "as_printed" {
             // The bars round the primitive turn two quadrants' signs.
             assert!(off > 0.9, "{name}: {sum}");
+        } else if let Some(tolerance) = face_tolerance(&name) {
+            assert!(off <= tolerance, "{name}: {sum}, off by {off:e}");
         } else {
-            assert!(off <= face_tolerance(&name), "{name}: {sum}, off by {off:e}");
+            assert!(sum.is_finite(), "{name}: {sum}");
         }
     }
 }
@@ -88,10 +91,25 @@ fn ellipsoids_are_their_ellipses_and_what_is_counted() {
     }
 }
 
-/// What the published rule loses is the boundary, about 2 pixels for each of the 2 n columns and rows: 0.54/sqrt(n).
+/// The solid angle, times sqrt(n), of what lies inside the circle in pixels that the circle cuts.
+///
+/// Where the rim's normal is (c, s), a point at depth t below it lies in a cut pixel if the pixel's far corner, a and b
+/// pixels away, is beyond: t < (a c + b s)/n. At depth t the density is 1/sqrt(2 t), whose integral is sqrt(2 t). With a
+/// and b uniform in 0..1 the mean of sqrt(a c + b s) is 4/15 ((c + s)^2.5 - c^2.5 - s^2.5)/(c s); the rest is the integral
+/// along the rim, by midpoints.
+fn boundary_loss() -> f64 {
+    const STEPS: u32 = 10_000;
+    let mean = |step: u32| {
+        let (s, c) = ((f64::from(step) + 0.5) / f64::from(STEPS) * FRAC_PI_2).sin_cos();
+        4.0 / 15.0 * ((c + s).powf(2.5) - c.powf(2.5) - s.powf(2.5)) / (c * s)
+    };
+    2f64.sqrt() * FRAC_PI_2 * (0..STEPS).map(mean).sum::<f64>() / f64::from(STEPS)
+}
+
+/// What whole pixels lose is the boundary.
 #[test]
 fn the_orthographic_quarter_disk() {
-    for (size, lost) in [(100, 0.17), (400, 0.086), (1_000, 0.0545)] {
+    for size in [100, 400, 1_000] {
         let sums = orthographic_disk::sums(size);
         // Rounding of the primitive, 1e-16 a pixel.
         assert!((sums.clipped - FRAC_PI_2).abs() < 1e-10, "{size}: {sums:?}");
@@ -99,7 +117,11 @@ fn the_orthographic_quarter_disk() {
         let [out, on] = [false, true].map(|on_circle| orthographic_disk::whole_pixels(size, on_circle));
         assert!((out - 1e-10..=on + 1e-10).contains(&sums.published), "{size}: {out} {on} {sums:?}");
         let found = FRAC_PI_2 - sums.inside;
-        assert!((found / lost - 1.0).abs() < 0.1, "{size}: {found} lost, {sums:?}");
+        let root = f64::from(size).sqrt();
+        let lost = boundary_loss() / root;
+        // Corners are not uniform where the rim stays within a pixel, for an angle of sqrt(2/n) at either axis: sqrt(8/n)
+        // of pi/2; half of what is lost there is allowed for.
+        assert!((found / lost - 1.0).abs() < 0.9 / root, "{size}: {found} lost for {lost}, {sums:?}");
     }
     let [out, on] = [false, true].map(|on_circle| orthographic_disk::whole_pixels(10_000, on_circle));
     assert!(out < orthographic_disk::PRINTED && orthographic_disk::PRINTED < on, "{out} {on}");

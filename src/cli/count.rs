@@ -1,6 +1,6 @@
 //! Counts as users write them: `1M`, `250K`, `4G`, `1.5M`.
 
-/// A count of at least one.
+/// A count from 1 to 2^53.
 pub(super) fn parse(text: &str) -> Result<u64, String> {
     let (digits, factor) = match text.to_ascii_uppercase().as_bytes().last() {
         Some(b'K') => (&text[..text.len() - 1], 1_000.0),
@@ -12,10 +12,10 @@ pub(super) fn parse(text: &str) -> Result<u64, String> {
     let value = value * factor;
     // 2^53: beyond it not every count is a value of f64.
     if !(1.0..=9_007_199_254_740_992.0).contains(&value) {
-        return Err("a count must be at least 1".to_owned());
+        return Err("a count is a whole number from 1 to 2^53 (9007199254740992)".to_owned());
     }
     if value.fract() != 0.0 {
-        return Err("a count must be whole".to_owned());
+        return Err("a count is a whole number, such as 1500 or 1.5K".to_owned());
     }
     Ok(value as u64)
 }

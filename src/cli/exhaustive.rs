@@ -20,7 +20,7 @@ use crate::job::{self, JOURNAL, Journal, Progress};
 use crate::record::{self, Evidence, Folder};
 
 /// Options of an exhaustive audit.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub(super) struct Options {
     /// All 2^32 bit patterns instead of random configurations; for families of one input
     #[arg(long, conflicts_with_all = ["configurations", "scenario", "seed"])]

@@ -62,13 +62,13 @@ enum Verb {
     /// quantiles, worst configurations, times, and what repeats the run) and failures.parquet (a sample of failing
     /// configurations with their exact bits). The same seed gives the same counts on any number of threads and with any
     /// chunk size.
-    Run(run::Arguments),
+    Run(run::RunArguments),
     /// Only the precision half of 'run'
     ///
     /// Runs variants over random configurations of each scenario and compares every result with the oracle. See 'rootq
     /// run --help' for what it leaves. With --exhaustive, families of one input are audited on all 2^32 bit patterns of
     /// it, in minutes; interrupted, the same command with the same --out goes on.
-    Audit(run::Arguments),
+    Audit(run::AuditArguments),
     /// Only the throughput half of 'run'
     ///
     /// Takes the time of variants by the device's own timestamps in two regimes. Streaming: one evaluation a
@@ -78,7 +78,7 @@ enum Verb {
     /// half a per cent or time is up. Each ranking holds its reference twice: what differs between the two is noise,
     /// inside which no variant ranks before another. The table shows shares of what the device did at best in the same
     /// run. Only a family's first scenario is timed, unless --scenario names others.
-    Bench(run::Arguments),
+    Bench(run::BenchArguments),
     /// Evaluate your own configurations, by oracle and variants, CSV to CSV
     ///
     /// The input's header names the family's columns in any order ('rootq list FAMILY' shows them); values are decimal
@@ -128,9 +128,9 @@ pub fn main() -> ExitCode {
     let result = match cli.verb {
         Verb::Devices(arguments) => devices::devices(&arguments).map(Outcome::from),
         Verb::List(arguments) => list::list(&arguments).map(Outcome::from),
-        Verb::Run(arguments) => run::run(&arguments, run::Halves::Both, &stop).map(Outcome::from),
-        Verb::Audit(arguments) => run::run(&arguments, run::Halves::Audit, &stop).map(Outcome::from),
-        Verb::Bench(arguments) => run::run(&arguments, run::Halves::Bench, &stop).map(Outcome::from),
+        Verb::Run(arguments) => run::run(&arguments.into(), run::Halves::Both, &stop).map(Outcome::from),
+        Verb::Audit(arguments) => run::run(&arguments.into(), run::Halves::Audit, &stop).map(Outcome::from),
+        Verb::Bench(arguments) => run::run(&arguments.into(), run::Halves::Bench, &stop).map(Outcome::from),
         Verb::Eval(arguments) => eval::eval(&arguments, &stop).map(Outcome::from),
         Verb::Compare(arguments) => compare::compare(&arguments),
         Verb::Pick(arguments) => pick::pick(&arguments),

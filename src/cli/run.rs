@@ -28,48 +28,156 @@ pub(super) enum Halves {
     Bench,
 }
 
-/// Options of `rootq run`, `audit` and `bench`.
+/// What all three verbs take.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  \
-    rootq run                                         every built-in variant, every scenario\n  \
-    rootq audit ellipse_axes --scenario aspect -n 4M  one family on one scenario\n  \
-    rootq bench 'ellipse_axes/cross*'                 times of some variants\n  \
-    rootq bench ltc_line --reference heitz2017 --seconds 10\n  \
-    rootq audit sin/native --exhaustive --out sin     all 2^32 inputs; started again it goes on")]
-pub(super) struct Arguments {
+struct Common {
     /// Variants: FAMILY, FAMILY/VARIANT or a glob such as 'ellipse_axes/cross*' [default: all]
     #[arg(value_name = "SELECT")]
-    pub(super) select: Vec<String>,
-    /// Configurations a scenario; K, M and G are allowed
-    #[arg(short = 'n', value_name = "COUNT", default_value = "1M", value_parser = count::parse, allow_hyphen_values = true)]
-    configurations: u64,
-    #[command(flatten)]
-    pub(super) exhaustive: super::exhaustive::Options,
+    select: Vec<String>,
     /// Seed of the random configurations
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    #[command(flatten)]
+    device: DeviceArguments,
+    /// Run folder to write [default: bench_results/<device>/<date>-<commit>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace a run that --out holds already
+    #[arg(long)]
+    force: bool,
+}
+
+const MAX_FAILURES: usize = 100;
+
+/// What an audit takes.
+#[derive(Args, Debug)]
+struct Precision {
+    /// Configurations a scenario; K, M and G are allowed
+    #[arg(short = 'n', value_name = "COUNT", default_value = "1M", value_parser = count::parse, allow_hyphen_values = true)]
+    configurations: u64,
     /// Only this scenario; may be given again [default: all]
     #[arg(long, value_name = "NAME")]
     scenario: Vec<String>,
-    #[command(flatten)]
-    pub(super) device: DeviceArguments,
-    /// Run folder to write [default: bench_results/<device>/<date>-<commit>]
-    #[arg(long, value_name = "DIR")]
-    pub(super) out: Option<PathBuf>,
-    /// Replace a run that --out holds already
-    #[arg(long)]
-    pub(super) force: bool,
     /// Failures to keep a variant and scenario
-    #[arg(long, value_name = "N", default_value_t = 100)]
-    pub(super) max_failures: usize,
+    #[arg(long, value_name = "N", default_value_t = MAX_FAILURES)]
+    max_failures: usize,
     /// Configurations a chunk, at most 2^20; changes no result
-    #[arg(long, value_name = "COUNT", default_value = "1048576", value_parser = count::parse)]
-    pub(super) chunk: u64,
+    #[arg(long, value_name = "COUNT", default_value_t = MAX_CHUNK as u64, value_parser = count::parse)]
+    chunk: u64,
     /// Host threads for sampling, oracle and judge; changes no result [default: one a core]
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
+}
+
+/// Options of `rootq run`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    rootq run                                         every built-in variant, every scenario\n  \
+    rootq run ellipse_axes --scenario aspect -n 4M    one family on one scenario")]
+pub(super) struct RunArguments {
+    #[command(flatten)]
+    common: Common,
+    #[command(flatten)]
+    precision: Precision,
     #[command(flatten)]
     timing: TimingArguments,
+}
+
+/// Options of `rootq audit`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    rootq audit ellipse_axes --scenario aspect -n 4M  one family on one scenario\n  \
+    rootq audit sin/native --exhaustive --out sin     all 2^32 inputs; started again it goes on")]
+pub(super) struct AuditArguments {
+    #[command(flatten)]
+    common: Common,
+    #[command(flatten)]
+    precision: Precision,
+    #[command(flatten)]
+    exhaustive: super::exhaustive::Options,
+}
+
+/// Options of `rootq bench`.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    rootq bench 'ellipse_axes/cross*'                 times of some variants\n  \
+    rootq bench ltc_line --reference heitz2017 --seconds 10")]
+pub(super) struct BenchArguments {
+    #[command(flatten)]
+    common: Common,
+    /// Only this scenario; may be given again [default: each family's first]
+    #[arg(long, value_name = "NAME")]
+    scenario: Vec<String>,
+    #[command(flatten)]
+    timing: TimingArguments,
+}
+
+/// What is to be done, whichever verb says so.
+#[derive(Debug)]
+pub(super) struct Arguments {
+    pub(super) select: Vec<String>,
+    configurations: u64,
+    pub(super) exhaustive: super::exhaustive::Options,
+    seed: u64,
+    scenario: Vec<String>,
+    pub(super) device: DeviceArguments,
+    pub(super) out: Option<PathBuf>,
+    pub(super) force: bool,
+    pub(super) max_failures: usize,
+    pub(super) chunk: u64,
+    threads: Option<usize>,
+    timing: TimingArguments,
+}
+
+impl Arguments {
+    fn new(
+        common: Common,
+        precision: Precision,
+        exhaustive: super::exhaustive::Options,
+        timing: TimingArguments,
+    ) -> Self {
+        let Common { select, seed, device, out, force } = common;
+        let Precision { configurations, scenario, max_failures, chunk, threads } = precision;
+        Arguments {
+            select,
+            configurations,
+            exhaustive,
+            seed,
+            scenario,
+            device,
+            out,
+            force,
+            max_failures,
+            chunk,
+            threads,
+            timing,
+        }
+    }
+}
+
+impl From<RunArguments> for Arguments {
+    fn from(RunArguments { common, precision, timing }: RunArguments) -> Self {
+        Arguments::new(common, precision, Default::default(), timing)
+    }
+}
+
+impl From<AuditArguments> for Arguments {
+    fn from(AuditArguments { common, precision, exhaustive }: AuditArguments) -> Self {
+        Arguments::new(common, precision, exhaustive, TimingArguments::default())
+    }
+}
+
+impl From<BenchArguments> for Arguments {
+    fn from(BenchArguments { common, scenario, timing }: BenchArguments) -> Self {
+        let precision = Precision {
+            configurations: crate::bench::CONFIGURATIONS as u64,
+            scenario,
+            max_failures: MAX_FAILURES,
+            chunk: MAX_CHUNK as u64,
+            threads: None,
+        };
+        Arguments::new(common, precision, Default::default(), timing)
+    }
 }
 
 /// Variants that are ready to run, and those that cannot here.
@@ -92,9 +200,6 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().context("--threads")?;
     }
     if arguments.exhaustive.wanted() {
-        if halves != Halves::Audit {
-            bail!("only 'rootq audit' is exhaustive");
-        }
         return super::exhaustive::audit(arguments, start, started, stop);
     }
     let catalog = Catalog::embedded()?;

@@ -16,7 +16,7 @@ use crate::device::vulkan::{Options, VulkanDevice};
 use crate::family::{Problem, Scenario};
 
 /// Options of timing.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub(super) struct TimingArguments {
     /// Seconds for each of streaming, coherent and divergent times, unless intervals are narrow before; 11 rounds over
     /// all variants are taken in any case [default: 3 for bench, 0.3 for run]
