@@ -213,16 +213,18 @@ impl Principal {
         if bound <= ACCURACY * value {
             return Irradiance { value, bound, escalated: false, gradient };
         }
-        let value = self.area(swing, (cos0, sin0), (cos_d, sin_d));
-        Irradiance { value, bound: 64.0 * EPS * value, escalated: true, gradient }
+        let (value, resolved) = self.area(swing, (cos0, sin0), (cos_d, sin_d));
+        // Poles closer to the segment than f64 tells angles apart: nothing is promised.
+        let bound = if resolved { 64.0 * EPS * value } else { value };
+        Irradiance { value, bound, escalated: true, gradient }
     }
 
     /// The same as an integral over the ellipse's visible segment: lines parallel to the horizon in closed form, across
     /// them by Gauss's rule. The integrand is positive, so nothing cancels.
     ///
     /// It is singular where a line or the rim passes through the apex, at complex angles that are known: panels are
-    /// halved until they are far from them.
-    fn area(&self, swing: f64, (cos0, sin0): (f64, f64), (cos_d, sin_d): (f64, f64)) -> f64 {
+    /// halved until they are far from them, and the answer says whether all are.
+    fn area(&self, swing: f64, (cos0, sin0): (f64, f64), (cos_d, sin_d): (f64, f64)) -> (f64, bool) {
         let &Principal { e1, e3, l, .. } = self;
         let along = e1 * sin0 * sin0 + e3 * cos0 * cos0;
         let skew = sin0 * cos0 * (e3 - e1);
@@ -251,8 +253,9 @@ impl Principal {
         let rim = libm::asinh(libm::sqrt((l + e3) / (e1 - e3)));
         let lines = libm::asinh(libm::sqrt(l * along / (e1 * e3)));
         let poles = [(0.5 * PI - u0, rim), (0.5 * PI + u0, rim), (0.5 * PI, lines)];
-        let sum = graded(0.0, d, &poles, PANELS, &line);
-        libm::sqrt(e1 * e3 * l) * swing / PI * sum
+        let mut panels = PANELS;
+        let sum = graded(0.0, d, &poles, HALVINGS, &mut panels, &line);
+        (libm::sqrt(e1 * e3 * l) * swing / PI * sum, panels > 0)
     }
 
     /// G_ij = dE/dS_ij from the rim's part at the angles `start` .. `start + turn` of w, tan w = sqrt(B/A) tan u.
@@ -297,22 +300,35 @@ fn arc_over_chord(x: f64) -> f64 {
 }
 
 /// Halvings of a panel: a pole 2^-48 off the real axis is met with what f64 can say of it.
-const PANELS: u32 = 48;
+const HALVINGS: u32 = 48;
+/// Panels of an integral: three poles take at most four a halving each. More are asked for only where a segment is so
+/// short that all of it seems to lie on a pole.
+const PANELS: u32 = 3 * 4 * HALVINGS;
 
 /// The integral of `f` over low..high, which is singular at the poles (x + k pi) + i y only.
 ///
 /// A panel whose middle is 1.8 half lengths away from every pole has none within the ellipse of semi-axes' sum 3.3, and
 /// 16 points are good to 3.3^-32 = 3e-17 of what is largest in that.
-fn graded(low: f64, high: f64, poles: &[(f64, f64)], halvings: u32, f: &impl Fn(f64) -> f64) -> f64 {
+///
+/// Takes no more than `panels`, and leaves how many are left: none, if they did not do.
+fn graded(
+    low: f64,
+    high: f64,
+    poles: &[(f64, f64)],
+    halvings: u32,
+    panels: &mut u32,
+    f: &impl Fn(f64) -> f64,
+) -> f64 {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     let near = |&(x, y): &(f64, f64)| {
         let off = (middle - x) - PI * libm::round((middle - x) / PI);
         off * off + y * y < 3.24 * half * half
     };
-    if halvings == 0 || !poles.iter().any(near) {
+    if halvings == 0 || *panels == 0 || !poles.iter().any(near) {
         let mut sum = 0.0;
         visit(&POINTS_16, low, high, |x, weight| sum += weight * f(x));
         return sum;
     }
-    graded(low, middle, poles, halvings - 1, f) + graded(middle, high, poles, halvings - 1, f)
+    *panels -= 1;
+    graded(low, middle, poles, halvings - 1, panels, f) + graded(middle, high, poles, halvings - 1, panels, f)
 }
