@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::exact_bits;
 use super::fingerprint::row_hash;
-use super::summary::Row;
+use super::judgement::Row;
 use crate::family::{CERTIFIED, Problem, Scenario, Truth};
 use crate::sample::Stream;
 
@@ -148,7 +148,8 @@ impl Chunk {
         &self.truth[row * self.widths.truth..][..self.widths.truth]
     }
 
-    pub(super) fn row(&self, row: usize) -> Row<'_> {
+    /// One configuration with its truth, to be judged.
+    pub fn row(&self, row: usize) -> Row<'_> {
         let Widths { inputs, sensitivities, bins, .. } = self.widths;
         Row {
             index: self.first + row as u64,

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::exact_bits;
 use super::judge::Measure;
-use super::summary::Row;
+use super::judgement::Row;
 
 /// One configuration and what came of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -28,6 +28,15 @@ pub struct Measure {
 }
 
 impl Measure {
+    /// No error.
+    pub(super) const NONE: Measure =
+        Measure { verdict: Verdict::Ok, error: 0.0, ulp: 0.0, conditioned: 0.0, steps: [0.0; 3] };
+
+    /// `size`, but 0 where the specification promises nothing.
+    pub(super) fn promised(&self, size: f64) -> f64 {
+        if self.verdict == Verdict::Unspecified { 0.0 } else { size }
+    }
+
     pub(super) fn failed(verdict: Verdict) -> Self {
         let worst = f64::INFINITY;
         Measure { verdict, error: worst, ulp: worst, conditioned: worst, steps: [worst; 3] }

@@ -8,6 +8,7 @@ mod failures;
 mod fingerprint;
 mod histogram;
 mod judge;
+mod judgement;
 mod summary;
 mod verdict;
 
@@ -18,5 +19,6 @@ pub use failures::{Failure, Failures};
 pub use fingerprint::Fingerprint;
 pub use histogram::Histogram;
 pub use judge::{EXPLAINED_BY_ROUNDING, Measure, measure};
+pub use judgement::{Comparison, Judgement, Row};
 pub use summary::{Bin, OutputSummary, Summary, Worst};
 pub use verdict::Verdict;

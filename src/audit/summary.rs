@@ -7,7 +7,8 @@ use super::exact_bits;
 use super::extremes::Extremes;
 use super::failures::{Failure, Failures};
 use super::judge::Measure;
-use super::{Fingerprint, Histogram, Verdict, judge};
+use super::judgement::{Comparison, Judgement, Row};
+use super::{Fingerprint, Histogram, Verdict};
 use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem, Quantity};
 
 /// One variant on one scenario.
@@ -71,19 +72,6 @@ impl Worst {
     }
 }
 
-/// A row of the truth table beside which a variant's outputs are judged.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Row<'a> {
-    pub index: u64,
-    pub inputs: &'a [f32],
-    pub truth: &'a [f64],
-    pub sensitivities: &'a [f64],
-    /// The relative change of the inputs that turns a hit into a miss or back.
-    pub margin: f64,
-    /// One bin a landmark.
-    pub bins: &'a [u8],
-}
-
 impl Summary {
     pub fn new(problem: &dyn Problem, max_failures: usize) -> Self {
         let bin = Bin { verdicts: [0; Verdict::ALL.len()], beyond: [0; MAX_OUTPUTS] };
@@ -99,81 +87,40 @@ impl Summary {
 
     /// Judges one configuration's outputs, given as all components in column order.
     pub(super) fn judge(&mut self, problem: &dyn Problem, row: Row<'_>, values: &[f32; MAX_COMPONENTS]) {
-        let outputs = problem.outputs();
         let values = &values[..row.truth.len()];
-        let (mut errors, mut ulps) = ([0.0; MAX_OUTPUTS], [0.0; MAX_OUTPUTS]);
-        let mut record = |position: usize, measure: &Measure| {
-            (errors[position], ulps[position]) = (measure.error, measure.ulp);
-        };
-        let mut verdict = Verdict::Ok;
-        let mut exact = [0.0; MAX_COMPONENTS];
-        for (exact, value) in exact.iter_mut().zip(values) {
-            *exact = f64::from(*value);
-        }
-        let exact = &exact[..values.len()];
-        let finite = values.iter().all(|value| value.is_finite());
-        let (missed, truth_missed) = (problem.is_miss(exact), problem.is_miss(row.truth));
-        if let Some(class) = judge::miss(finite, missed, truth_missed, row.margin) {
-            verdict = class;
-            for (position, summary) in self.outputs.iter_mut().enumerate().filter(|_| class != Verdict::Ok) {
-                let failed = Measure::failed(class);
-                record(position, &failed);
-                if finite {
-                    summary.add_unmeasured();
-                } else {
-                    summary.add(&failed, outputs[position].tolerance, row.index);
-                }
-            }
-        } else {
-            let mut start = 0;
-            let mut starts = [0; MAX_OUTPUTS];
-            for (position, output) in outputs.iter().enumerate() {
-                let components = start..start + output.field.ty.components();
-                starts[position] = start;
-                start = components.end;
-                let sensitivity = row.sensitivities[position];
-                let measure = match output.quantity {
-                    Quantity::Property => {
-                        let residual = problem.residual(position, row.inputs, exact);
-                        judge::residual(output, residual, sensitivity)
-                    }
-                    _ => judge::measure(
-                        output,
-                        &values[components.clone()],
-                        &row.truth[components.clone()],
-                        sensitivity,
-                    ),
-                };
-                verdict = verdict.max(measure.verdict);
-                if output.quantity == Quantity::Builtin {
-                    let (value, truth) = (&values[components.clone()], &row.truth[components]);
-                    self.outputs[position].extremes.add(&measure, row, value, truth, sensitivity);
-                    if measure.verdict == Verdict::Unspecified {
-                        continue;
-                    }
-                }
-                record(position, &measure);
-                self.outputs[position].add(&measure, output.tolerance, row.index);
-            }
-            let components = |at: usize| starts[at]..starts[at] + outputs[at].field.ty.components();
-            for relation in problem.relations() {
-                verdict = verdict.max(judge::relate(
-                    *relation,
-                    outputs,
-                    |output| &values[components(output)],
-                    |output| &row.truth[components(output)],
-                ));
-            }
-        }
+        let judgement = Judgement::new(problem, row, values);
+        self.add(problem, row, values, &judgement);
+    }
 
+    fn add(&mut self, problem: &dyn Problem, row: Row<'_>, values: &[f32], judgement: &Judgement) {
+        let (outputs, verdict) = (problem.outputs(), judgement.verdict);
+        match judgement.comparison {
+            Comparison::BothMiss => {}
+            Comparison::OneMisses => self.outputs.iter_mut().for_each(OutputSummary::add_unmeasured),
+            Comparison::Measured => {
+                let mut start = 0;
+                for (position, (output, measure)) in outputs.iter().zip(judgement.measures()).enumerate() {
+                    let components = start..start + output.field.ty.components();
+                    start = components.end;
+                    let summary = &mut self.outputs[position];
+                    if output.quantity == Quantity::Builtin {
+                        let (value, truth) = (&values[components.clone()], &row.truth[components]);
+                        summary.extremes.add(measure, row, value, truth, row.sensitivities[position]);
+                    }
+                    if measure.verdict != Verdict::Unspecified {
+                        summary.add(measure, output.tolerance, row.index);
+                    }
+                }
+            }
+        }
         self.configurations += 1;
         self.bits.add(row.index, values);
         self.verdicts[verdict as usize] += 1;
         for (bins, bin) in self.landmarks.iter_mut().zip(row.bins) {
             let bin = &mut bins[usize::from(*bin)];
             bin.verdicts[verdict as usize] += 1;
-            for ((beyond, error), output) in bin.beyond.iter_mut().zip(&errors).zip(outputs) {
-                *beyond += u64::from(*error > output.tolerance);
+            for ((beyond, error), output) in bin.beyond.iter_mut().zip(judgement.errors()).zip(outputs) {
+                *beyond += u64::from(error > output.tolerance);
             }
         }
         if verdict.is_failure() {
@@ -183,8 +130,8 @@ impl Summary {
                 inputs: row.inputs.to_vec(),
                 outputs: values.to_vec(),
                 truth: row.truth.to_vec(),
-                errors: errors[..outputs.len()].to_vec(),
-                ulps: ulps[..outputs.len()].to_vec(),
+                errors: judgement.errors().collect(),
+                ulps: judgement.ulps().collect(),
             });
         }
     }
