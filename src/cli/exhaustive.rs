@@ -84,13 +84,13 @@ pub(super) fn audit(
         let date = started.strftime("%Y-%m-%d").to_string();
         record::default_path(&facts.name, &date, env!("ROOTQ_REVISION"))
     });
-    let folder = Folder::resume(&target, arguments.force, JOURNAL)?;
-
-    eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
+    let mut folder = Folder::resume(&target, arguments.force, JOURNAL)?;
     let mut families = selected
         .into_iter()
         .map(|selected| run::prepare(selected, &machine.device))
         .collect::<Result<Vec<_>>>()?;
+    eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
+    families.iter().for_each(|family| family.keep_modules(&mut folder));
     let job = job(&facts, &families, &range, arguments);
     let mut journal = Journal::open(&target, &job, arguments.force)?;
     let parts = families.len() as u64 * job::parts(&range);

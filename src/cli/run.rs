@@ -194,6 +194,17 @@ pub(super) struct Prepared {
     /// Programs, each with its variant's place in the record.
     pub(super) programs: Vec<<VulkanDevice as Device>::Program>,
     pub(super) places: Vec<usize>,
+    /// Names and modules of shaders that are not built in.
+    modules: Vec<(String, Vec<u32>)>,
+}
+
+impl Prepared {
+    /// Lets the run keep what nobody else has.
+    pub(super) fn keep_modules(&self, folder: &mut Folder) {
+        for (variant, words) in &self.modules {
+            folder.keep_module(&self.record.name, variant, words);
+        }
+    }
 }
 
 pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> Result<()> {
@@ -218,13 +229,14 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         let date = started.strftime("%Y-%m-%d").to_string();
         record::default_path(&facts.name, &date, env!("ROOTQ_REVISION"))
     });
-    let folder = Folder::create(&target, arguments.force)?;
+    let mut folder = Folder::create(&target, arguments.force)?;
 
-    eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
     let mut families = selected
         .into_iter()
         .map(|selected| prepare(selected, &machine.device))
         .collect::<Result<Vec<_>>>()?;
+    eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
+    families.iter().for_each(|family| family.keep_modules(&mut folder));
     let timer = match halves {
         Halves::Audit => None,
         Halves::Both => Some(Timer::new(&arguments.timing, &machine.device, Depth::Glance, stop)?),
@@ -326,7 +338,7 @@ pub(super) fn program() -> record::Program {
 pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
     let signature = selected.problem.signature();
     let mut record = record::family(selected.problem);
-    let (mut programs, mut places) = (Vec::new(), Vec::new());
+    let (mut programs, mut places, mut modules) = (Vec::new(), Vec::new(), Vec::new());
     for variant in &selected.variants {
         let Compiled { kernel, facts } = variant.compile(&signature, false)?;
         let skipped = match device.program(&kernel) {
@@ -339,6 +351,9 @@ pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepa
             Err(error @ device::Error::NotSupported { .. }) if !variant.is_own() => Some(error.to_string()),
             Err(error) => return Err(error.into()),
         };
+        if variant.is_own() {
+            modules.push((variant.name.clone(), kernel.spirv));
+        }
         record.variants.push(record::Variant {
             name: variant.name.clone(),
             file: variant.file.clone(),
@@ -348,11 +363,12 @@ pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepa
             precise: variant.precise,
             tables: variant.tables.iter().map(|(name, form)| (name.as_str().to_owned(), *form)).collect(),
             spirv: facts,
+            own: variant.is_own().then(|| variant.language()),
             skipped,
             results: Vec::new(),
         });
     }
-    Ok(Prepared { record, selected, programs, places })
+    Ok(Prepared { record, selected, programs, places, modules })
 }
 
 /// What is to be done on a scenario.
