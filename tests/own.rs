@@ -136,7 +136,7 @@ fn a_cubic_solver_and_its_module() {
         let (code, told, words) = outcome(&mut compare);
         assert_eq!(code, 0, "{words}");
         let told: Value = serde_json::from_str(&told).unwrap();
-        let rows = told["rows"].as_array().unwrap();
+        let rows = told["comparison"]["rows"].as_array().unwrap();
         assert!(!rows.is_empty() && rows.iter().all(|row| row["bits"]["differing"] == 0.0), "{told}");
     }
 }
@@ -177,6 +177,31 @@ fn every_verb_takes_it() {
     let at = rows[0].iter().position(|column| *column == "axes.major_len").unwrap();
     assert_eq!(rows[1][at].parse::<f32>(), Ok(3.0));
     assert!(rows[0].contains(&"cross.major_len"));
+}
+
+/// Included files are found beside the shader, in folders of -I, and among the built-in steps; -D wins over all else.
+#[test]
+fn includes_and_definitions() {
+    let folder = tempdir().unwrap();
+    let inner = folder.path().join("inner");
+    fs::create_dir(&inner).unwrap();
+    fs::write(inner.join("gain.glsl"), "#include \"more.glsl\"\n#ifndef GAIN\n#define GAIN MORE\n#endif\n")
+        .unwrap();
+    fs::write(inner.join("more.glsl"), "const float MORE = 2.0;\n").unwrap();
+    let text = "#include <gain.glsl>\n#include \"common/hypot.glsl\"\n\
+                float builtin_sqrt(float x) { return GAIN * hypot(sqrt(x), 0.0); }\n";
+    fs::write(folder.path().join("mine.comp"), text).unwrap();
+    let inputs = folder.path().join("in.csv");
+    fs::write(&inputs, "x\n9\n").unwrap();
+    for (define, expected) in [(None, 6.0), (Some("GAIN=0.5"), 1.5), (Some("GAIN=float(1)"), 3.0)] {
+        let mut command = rootq();
+        command.current_dir(folder.path());
+        command.args(["eval", "sqrt", "--inputs", "in.csv", "--shader", "mine.comp", "-I", "inner"]);
+        let (code, table, words) = outcome(command.args(define.iter().flat_map(|define| ["-D", *define])));
+        assert_eq!(code, 0, "{words}");
+        let last = table.lines().last().unwrap().split(',').next_back().unwrap();
+        assert_eq!(last.parse::<f32>(), Ok(expected), "{table}");
+    }
 }
 
 /// What may be wrong with a shader, each told by one line that says where, and nothing is left behind.
