@@ -10,6 +10,7 @@ mod draft;
 mod eval;
 mod exhaustive;
 mod fit;
+mod hunt;
 mod list;
 mod machine;
 mod pick;
@@ -86,6 +87,16 @@ enum Verb {
     /// with the columns oracle.<column> (17 digits) and <variant>.<column> (9 digits), which read back to the same
     /// bits. A mistake anywhere in the input leaves no output at all.
     Eval(eval::Arguments),
+    /// Search for the worst configuration of each scenario
+    ///
+    /// Searches among all configurations that a scenario can draw, however rarely, for the one that a variant does worst:
+    /// a global optimiser (CMA-ES with restarts) over the random words behind a configuration, the judged error as its
+    /// objective, whole populations on the device at a time. Only errors that the variant is to blame for count: a failure
+    /// above any error that rounding the inputs explains. As many random configurations are judged beside it, so that the
+    /// table says what the search was worth. The worst of each failing verdict is kept with its exact inputs: in
+    /// failures.parquet of the run folder (index 0, for it is in no random stream), which other verbs read as they do a
+    /// run's. Interrupted, the hunt ends with what it found.
+    Hunt(hunt::Arguments),
     /// What changed between two recorded runs, row by row; with --gate, whether that is allowed
     ///
     /// Two runs of another driver, device, version or day: for each variant and scenario, whether accuracy and time (apart
@@ -132,6 +143,7 @@ pub fn main() -> ExitCode {
         Verb::Audit(arguments) => run::run(&arguments.into(), run::Halves::Audit, &stop).map(Outcome::from),
         Verb::Bench(arguments) => run::run(&arguments.into(), run::Halves::Bench, &stop).map(Outcome::from),
         Verb::Eval(arguments) => eval::eval(&arguments, &stop).map(Outcome::from),
+        Verb::Hunt(arguments) => hunt::hunt(&arguments, &stop),
         Verb::Compare(arguments) => compare::compare(&arguments),
         Verb::Pick(arguments) => pick::pick(&arguments),
         Verb::Fit(arguments) => fit::fit(&arguments, &stop).map(Outcome::from),
@@ -139,6 +151,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
         Ok(Outcome::Violated) => VIOLATED.into(),
+        Ok(Outcome::Interrupted) => INTERRUPTED.into(),
         Err(error) if stop.load(Ordering::Relaxed) => {
             match error.downcast_ref::<exhaustive::Kept>() {
                 Some(kept) => eprintln!("rootq: interrupted; {kept}"),
@@ -161,6 +174,8 @@ enum Outcome {
     Clean,
     /// A gate's rule is broken, or a claim does not hold.
     Violated,
+    /// Ended early on request, with what it had by then.
+    Interrupted,
 }
 
 impl From<()> for Outcome {

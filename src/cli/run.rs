@@ -371,6 +371,7 @@ fn measure(
             audit: None,
             timing: None,
             arithmetic: Vec::new(),
+            hunt: None,
         })
         .collect();
     let (mut oracle, mut digest) = (None, None);

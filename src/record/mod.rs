@@ -5,6 +5,7 @@ mod bits;
 pub mod configurations;
 mod failures;
 mod folder;
+mod hunt;
 mod number;
 mod schema;
 mod summarize;
@@ -15,6 +16,7 @@ use crate::audit::{Failure, Fingerprint};
 
 pub use bits::Bits;
 pub use folder::{Folder, Recorded, default_path, read};
+pub use hunt::{Find, Hunt, hunt};
 pub use number::parse_f32;
 pub use schema::{
     Audit, Bin, Buckets, Distribution, Extremes, Family, Host, Landmark, Oracle, Output, OutputAudit,
