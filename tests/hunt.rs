@@ -21,13 +21,13 @@ fn rootq() -> Command {
 }
 
 fn hunt(out: &Path, device: &str, more: &[&str]) -> Output {
-    let arguments = ["hunt", "ellipse_axes/naive", "--scenario", "scene", "--evaluations", "200K", "--device"];
+    let arguments =
+        ["hunt", "ellipse_axes/naive", "--scenario", "scene", "--evaluations", "200K", "--device"];
     rootq().args(arguments).arg(device).args(more).arg("--out").arg(out).output().unwrap()
 }
 
 fn record(out: &Path) -> Value {
-    let run: Value =
-        serde_json::from_str(&std::fs::read_to_string(out.join("run.json")).unwrap()).unwrap();
+    let run: Value = serde_json::from_str(&std::fs::read_to_string(out.join("run.json")).unwrap()).unwrap();
     run["families"][0]["variants"][0]["results"][0]["hunt"].clone()
 }
 

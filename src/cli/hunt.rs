@@ -8,11 +8,11 @@ use anyhow::{Result, bail};
 use clap::Args;
 use serde_json::json;
 
+use super::Outcome;
 use super::count;
 use super::machine::{DeviceArguments, Machine};
 use super::run::{Prepared, bar, prepare, program};
 use super::selection;
-use super::Outcome;
 use crate::audit::Fingerprint;
 use crate::catalog::Catalog;
 use crate::device::Device;

@@ -127,12 +127,8 @@ impl Search {
             }
         };
         let centre = centre.unwrap_or_else(|| self.random());
-        let bounds = Fitness::bounded(
-            self.dimensions,
-            1,
-            &vec![0.0; self.dimensions],
-            &vec![1.0; self.dimensions],
-        );
+        let bounds =
+            Fitness::bounded(self.dimensions, 1, &vec![0.0; self.dimensions], &vec![1.0; self.dimensions]);
         let parameters = CmaesParams {
             popsize: POPULATION as i32,
             seed: self.generator.next_u64(),

@@ -81,14 +81,8 @@ mod tests {
     /// Verdict and size of `value` where 1 is right; `explained` is what rounding the inputs may do.
     fn told(value: f32, explained: f64, margin: f64) -> (Verdict, f64) {
         let sensitivity = explained / (EXPLAINED_BY_ROUNDING * UNIT_ROUNDOFF);
-        let row = Row {
-            index: 0,
-            inputs: &[1.0],
-            truth: &[1.0],
-            sensitivities: &[sensitivity],
-            margin,
-            bins: &[],
-        };
+        let row =
+            Row { index: 0, inputs: &[1.0], truth: &[1.0], sensitivities: &[sensitivity], margin, bins: &[] };
         let judgement = Judgement::new(&Length, row, &[value]);
         (judgement.verdict, size(&Length, row, &judgement))
     }

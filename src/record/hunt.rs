@@ -85,8 +85,7 @@ mod tests {
             failures: failures.into_iter().map(|(verdict, size)| (verdict, find(verdict, size))).collect(),
             nearest: Some(find(Verdict::Ok, 0.5)),
         };
-        let record =
-            hunt(&Hunted { evaluations: 9, dimensions: 2, search: finds.clone(), random: finds });
+        let record = hunt(&Hunted { evaluations: 9, dimensions: 2, search: finds.clone(), random: finds });
         let sizes: Vec<_> = record.search.iter().map(|find| (find.verdict, find.size, find.index)).collect();
         assert_eq!(
             sizes,

@@ -59,8 +59,7 @@ fn rows(hunt: &Hunt) -> Vec<(Option<&Find>, Option<&Find>)> {
 }
 
 fn comparison(hunts: &[(&str, &Hunt)], colour: bool) -> String {
-    let header =
-        ["variant", "verdict", "worst random", "worst hunted", "ratio", "evaluations", "found"];
+    let header = ["variant", "verdict", "worst random", "worst hunted", "ratio", "evaluations", "found"];
     let mut table = table::table(&header, colour);
     for (variant, hunt) in hunts {
         for (hunted, random) in rows(hunt) {
