@@ -80,12 +80,14 @@ enum Verb {
     /// inside which no variant ranks before another. The table shows shares of what the device did at best in the same
     /// run. Only a family's first scenario is timed, unless --scenario names others.
     Bench(run::BenchArguments),
-    /// Evaluate your own configurations, by oracle and variants, CSV to CSV
+    /// Evaluate your own configurations, by oracle and variants, from CSV or Parquet to either
     ///
-    /// The input's header names the family's columns in any order ('rootq list FAMILY' shows them); values are decimal
-    /// or hexadecimal floats (0x1.8p-3), rounded once to f32. The output has one line an input line, in the same order,
-    /// with the columns oracle.<column> (17 digits) and <variant>.<column> (9 digits), which read back to the same
-    /// bits. A mistake anywhere in the input leaves no output at all.
+    /// The input's columns are the family's, in any order ('rootq list FAMILY' shows them). CSV: a header, and decimal or
+    /// hexadecimal floats (0x1.8p-3), rounded once to f32. Parquet, by name or content: float32 or float64, rounded
+    /// likewise; uncompressed, snappy, gzip or lz4. A run's failures.parquet is an input, too: the rows of this family,
+    /// without what else it holds. Tables of any length need little memory. The output has one row an input row, in the
+    /// same order, with the columns oracle.<column> (f64; 17 digits) and <variant>.<column> (f32; 9 digits), which read
+    /// back to the same bits. A mistake anywhere in the input leaves no output at all.
     Eval(eval::Arguments),
     /// Search for the worst configuration of each scenario
     ///
