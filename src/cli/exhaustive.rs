@@ -11,9 +11,8 @@ use indicatif::{HumanDuration, ProgressBar};
 use serde_json::{Map, Value, json};
 
 use super::run::{self, Arguments, Measured, Prepared};
-use super::selection::{self, Selected};
+use super::selection::Selected;
 use crate::audit::{MAX_CHUNK, Sweep};
-use crate::catalog::Catalog;
 use crate::device::{Device, Facts};
 use crate::family::FAMILIES;
 use crate::job::{self, JOURNAL, Journal, Progress};
@@ -59,8 +58,7 @@ fn range(text: &str) -> Result<Range<u64>, String> {
 
 /// The selected variants; of families that cannot be audited so an error, unless nothing was selected.
 fn select(arguments: &Arguments) -> Result<Vec<Selected>> {
-    let catalog = Catalog::embedded()?;
-    let mut selected = selection::variants(&catalog, &arguments.select)?;
+    let mut selected = super::run::select(arguments)?;
     if arguments.select.is_empty() {
         selected.retain(|selected| selected.problem.takes_all_bits());
     }

@@ -13,8 +13,8 @@ use super::count;
 use super::machine::{DeviceArguments, Machine};
 use super::run::{Prepared, bar, prepare, program};
 use super::selection;
+use super::shader::ShaderArguments;
 use crate::audit::Fingerprint;
-use crate::catalog::Catalog;
 use crate::device::Device;
 use crate::family::Scenario;
 use crate::hunt::{self, Budget, Hunted, Plan};
@@ -25,11 +25,12 @@ use crate::report;
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     rootq hunt ellipse_axes/naive                     a minute for all scenarios\n  \
-    rootq hunt 'ltc_disk/secular_*' --seconds 600 --scenario scene\n  \
+    rootq hunt 'ltc_disk/secular_*' --seconds 600 --scenario ggx\n  \
+    rootq hunt --shader my.comp --family ltc_disk     your shader\n  \
     rootq hunt sin/native --evaluations 1M --seed 7   the same again finds the same")]
 pub(super) struct Arguments {
     /// Variants to hunt: FAMILY/VARIANT, FAMILY or a glob such as 'ellipse_axes/cross*'
-    #[arg(value_name = "SELECT", required = true)]
+    #[arg(value_name = "SELECT", required_unless_present = "shader")]
     select: Vec<String>,
     /// Time for the whole hunt, shared out evenly among variants and scenarios; what is found then depends on
     /// how far the machine comes [default: 60]
@@ -47,6 +48,8 @@ pub(super) struct Arguments {
     seed: u64,
     #[command(flatten)]
     device: DeviceArguments,
+    #[command(flatten)]
+    shaders: ShaderArguments,
     /// Run folder to write [default: bench_results/<device>/hunt-<date>-<commit>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -65,8 +68,7 @@ pub(super) fn hunt(arguments: &Arguments, stop: &AtomicBool) -> Result<Outcome> 
     if arguments.seconds.is_some_and(|seconds| !(seconds > 0.0 && seconds <= 86_400.0)) {
         bail!("--seconds must be above 0 and at most 86400");
     }
-    let catalog = Catalog::embedded()?;
-    let selected = selection::variants(&catalog, &arguments.select)?;
+    let selected = arguments.shaders.select(&arguments.select)?;
     selection::check_scenarios(&selected, &arguments.scenario)?;
     let machine = arguments.device.open()?;
     let facts = machine.device.facts().clone();

@@ -11,10 +11,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::count;
 use super::machine::DeviceArguments;
 use super::selection::{self, Selected};
+use super::shader::ShaderArguments;
 use super::timing::{Depth, Timed, Timer, TimingArguments};
 use crate::audit::{self, MAX_CHUNK, Plan};
 use crate::bench::{Ceilings, Regime};
-use crate::catalog::{self, Catalog, Compiled, Variant};
+use crate::catalog::{self, Compiled, Variant};
 use crate::device::{self, Device, vulkan::VulkanDevice};
 use crate::family::Scenario;
 use crate::record::{self, Evidence, Folder};
@@ -39,6 +40,8 @@ struct Common {
     seed: u64,
     #[command(flatten)]
     device: DeviceArguments,
+    #[command(flatten)]
+    shaders: ShaderArguments,
     /// Run folder to write [default: bench_results/<device>/<date>-<commit>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -73,7 +76,9 @@ struct Precision {
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     rootq run                                         every built-in variant, every scenario\n  \
-    rootq run ellipse_axes --scenario aspect -n 4M    one family on one scenario")]
+    rootq run ellipse_axes --scenario aspect -n 4M    one family on one scenario\n  \
+    rootq run --shader my.comp --family ltc_disk      your shader\n  \
+    rootq run ltc_disk --shader my.hlsl               your shader beside all of the family")]
 pub(super) struct RunArguments {
     #[command(flatten)]
     common: Common,
@@ -121,6 +126,7 @@ pub(super) struct Arguments {
     seed: u64,
     scenario: Vec<String>,
     pub(super) device: DeviceArguments,
+    shaders: ShaderArguments,
     pub(super) out: Option<PathBuf>,
     pub(super) force: bool,
     pub(super) max_failures: usize,
@@ -136,7 +142,7 @@ impl Arguments {
         exhaustive: super::exhaustive::Options,
         timing: TimingArguments,
     ) -> Self {
-        let Common { select, seed, device, out, force } = common;
+        let Common { select, seed, device, shaders, out, force } = common;
         let Precision { configurations, scenario, max_failures, chunk, threads } = precision;
         Arguments {
             select,
@@ -145,6 +151,7 @@ impl Arguments {
             seed,
             scenario,
             device,
+            shaders,
             out,
             force,
             max_failures,
@@ -202,8 +209,7 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
     if arguments.exhaustive.wanted() {
         return super::exhaustive::audit(arguments, start, started, stop);
     }
-    let catalog = Catalog::embedded()?;
-    let selected = selection::variants(&catalog, &arguments.select)?;
+    let selected = select(arguments)?;
     selection::check_scenarios(&selected, &arguments.scenario)?;
     arguments.timing.check_reference(&selected)?;
     let machine = arguments.device.open_with(arguments.timing.options())?;
@@ -248,6 +254,11 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         evidence,
     };
     finish(arguments, (start, started), folder, measured)
+}
+
+/// The selected variants; with shaders of the user's own and no other wish, these alone.
+pub(super) fn select(arguments: &Arguments) -> Result<Vec<Selected>> {
+    arguments.shaders.select(&arguments.select)
 }
 
 /// What a run found.
@@ -317,7 +328,8 @@ pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepa
                 places.push(record.variants.len());
                 None
             }
-            Err(error @ device::Error::NotSupported { .. }) => Some(error.to_string()),
+            // Who brings a shader wants to know.
+            Err(error @ device::Error::NotSupported { .. }) if !variant.is_own() => Some(error.to_string()),
             Err(error) => return Err(error.into()),
         };
         record.variants.push(record::Variant {
