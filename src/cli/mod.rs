@@ -13,6 +13,7 @@ mod fit;
 mod hunt;
 mod list;
 mod machine;
+mod new;
 mod pick;
 mod run;
 mod selection;
@@ -100,6 +101,12 @@ enum Verb {
     /// failures.parquet of the run folder (index 0, for it is in no random stream), which other verbs read as they do a
     /// run's. Interrupted, the hunt ends with what it found.
     Hunt(hunt::Arguments),
+    /// Write a shader to begin with
+    ///
+    /// A file with the family's function, to be filled in: what it computes, parameters and results with their columns, how
+    /// each result's error is measured, the scenarios it will meet, and what to run next. It compiles, and returns zeros. A
+    /// file that is there already stays as it is.
+    New(new::Arguments),
     /// What changed between two recorded runs, row by row; with --gate, whether that is allowed
     ///
     /// Two runs of another driver, device, version or day: for each variant and scenario, whether accuracy and time (apart
@@ -146,6 +153,7 @@ pub fn main() -> ExitCode {
         Verb::Audit(arguments) => run::run(&arguments.into(), run::Halves::Audit, &stop).map(Outcome::from),
         Verb::Bench(arguments) => run::run(&arguments.into(), run::Halves::Bench, &stop).map(Outcome::from),
         Verb::Eval(arguments) => eval::eval(&arguments, &stop).map(Outcome::from),
+        Verb::New(arguments) => new::new(&arguments).map(Outcome::from),
         Verb::Hunt(arguments) => hunt::hunt(&arguments, &stop),
         Verb::Compare(arguments) => compare::compare(&arguments),
         Verb::Pick(arguments) => pick::pick(&arguments),
