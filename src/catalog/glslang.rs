@@ -13,6 +13,9 @@ use glslang_sys as sys;
 /// Finds an included file's text by the name in the `#include` and the includer's name.
 pub(super) type Includes<'a> = &'a (dyn Fn(&str, &str) -> Option<String> + 'a);
 
+/// Name of every kernel's entry point.
+const ENTRY: &CStr = c"main";
+
 /// The front end that reads a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FrontEnd {
@@ -102,6 +105,11 @@ fn read<T>(
     // SAFETY: `input` and all it points to outlive the shader, which is dropped at the end of this function.
     let shader =
         Shader(NonNull::new(unsafe { sys::glslang_shader_create(&input) }).ok_or("ERROR: no shader")?);
+    // SAFETY: the shader is live, and glslang copies the names. HLSL has no entry point unless one is named.
+    unsafe {
+        sys::glslang_shader_set_entry_point(shader.0.as_ptr(), ENTRY.as_ptr());
+        sys::glslang_shader_set_source_entry_point(shader.0.as_ptr(), ENTRY.as_ptr());
+    }
     // SAFETY: the shader is live and `input` is the one it was created from.
     if unsafe { sys::glslang_shader_preprocess(shader.0.as_ptr(), &input) } == 0 {
         return Err(shader.log());

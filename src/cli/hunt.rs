@@ -76,18 +76,19 @@ pub(super) fn hunt(arguments: &Arguments, stop: &AtomicBool) -> Result<Outcome> 
         let date = format!("hunt-{}", started.strftime("%Y-%m-%d"));
         record::default_path(&facts.name, &date, env!("ROOTQ_REVISION"))
     });
-    let folder = Folder::create(&target, arguments.force)?;
+    let mut folder = Folder::create(&target, arguments.force)?;
 
     eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
     let mut families = selected
         .into_iter()
         .map(|selected| prepare(selected, &machine.device))
         .collect::<Result<Vec<_>>>()?;
+    families.iter().for_each(|family| family.keep_modules(&mut folder));
     let mut clock = Clock::new(arguments, &families);
     let mut evidence = Vec::new();
     for family in &mut families {
         for scenario in selection::scenarios(family.selected.problem, &arguments.scenario) {
-            for at in 0..family.programs.len() {
+            for at in 0..family.audited.len() {
                 if stop.load(Ordering::Relaxed) {
                     break;
                 }
@@ -143,7 +144,7 @@ struct Clock {
 impl Clock {
     fn new(arguments: &Arguments, families: &[Prepared]) -> Self {
         let hunts = families.iter().map(|family| {
-            family.programs.len() * selection::scenarios(family.selected.problem, &arguments.scenario).len()
+            family.audited.len() * selection::scenarios(family.selected.problem, &arguments.scenario).len()
         });
         Clock {
             evaluations: arguments.evaluations,
@@ -191,7 +192,7 @@ fn one(
             Budget::Until(_) => begin.elapsed().as_millis() as u64,
         });
     };
-    let hunted = hunt::hunt(&machine.device, &family.programs[at], &plan, &advance, stop)?;
+    let hunted = hunt::hunt(&machine.device, &family.audited[at], &plan, &advance, stop)?;
     bar.finish_and_clear();
     if hunted.evaluations == 0 {
         return Ok(());

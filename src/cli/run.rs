@@ -193,7 +193,20 @@ pub(super) struct Prepared {
     pub(super) selected: Selected,
     /// Programs, each with its variant's place in the record.
     pub(super) programs: Vec<<VulkanDevice as Device>::Program>,
+    /// The same for audits, where some watch their indices.
+    pub(super) audited: Vec<<VulkanDevice as Device>::Program>,
     pub(super) places: Vec<usize>,
+    /// Names and modules of shaders that are not built in.
+    modules: Vec<(String, Vec<u32>)>,
+}
+
+impl Prepared {
+    /// Lets the run keep what nobody else has.
+    pub(super) fn keep_modules(&self, folder: &mut Folder) {
+        for (variant, words) in &self.modules {
+            folder.keep_module(&self.record.name, variant, words);
+        }
+    }
 }
 
 pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> Result<()> {
@@ -218,13 +231,14 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         let date = started.strftime("%Y-%m-%d").to_string();
         record::default_path(&facts.name, &date, env!("ROOTQ_REVISION"))
     });
-    let folder = Folder::create(&target, arguments.force)?;
+    let mut folder = Folder::create(&target, arguments.force)?;
 
-    eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
     let mut families = selected
         .into_iter()
         .map(|selected| prepare(selected, &machine.device))
         .collect::<Result<Vec<_>>>()?;
+    eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
+    families.iter().for_each(|family| family.keep_modules(&mut folder));
     let timer = match halves {
         Halves::Audit => None,
         Halves::Both => Some(Timer::new(&arguments.timing, &machine.device, Depth::Glance, stop)?),
@@ -319,11 +333,13 @@ pub(super) fn program() -> record::Program {
 pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
     let signature = selected.problem.signature();
     let mut record = record::family(selected.problem);
-    let (mut programs, mut places) = (Vec::new(), Vec::new());
+    let (mut programs, mut audited) = (Vec::new(), Vec::new());
+    let (mut places, mut modules) = (Vec::new(), Vec::new());
     for variant in &selected.variants {
-        let Compiled { kernel, facts } = variant.compile(&signature, false)?;
+        let Compiled { kernel, watched, facts } = variant.compile(&signature, false)?;
         let skipped = match device.program(&kernel) {
             Ok(program) => {
+                audited.push(watched.map(|kernel| device.program(&kernel)).transpose()?);
                 programs.push(program);
                 places.push(record.variants.len());
                 None
@@ -332,6 +348,9 @@ pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepa
             Err(error @ device::Error::NotSupported { .. }) if !variant.is_own() => Some(error.to_string()),
             Err(error) => return Err(error.into()),
         };
+        if variant.is_own() {
+            modules.push((variant.name.clone(), kernel.spirv));
+        }
         record.variants.push(record::Variant {
             name: variant.name.clone(),
             file: variant.file.clone(),
@@ -341,11 +360,14 @@ pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepa
             precise: variant.precise,
             tables: variant.tables.iter().map(|(name, form)| (name.as_str().to_owned(), *form)).collect(),
             spirv: facts,
+            own: variant.is_own().then(|| variant.language()),
             skipped,
             results: Vec::new(),
         });
     }
-    Ok(Prepared { record, selected, programs, places })
+    let audited =
+        programs.iter().cloned().zip(audited).map(|(plain, watched)| watched.unwrap_or(plain)).collect();
+    Ok(Prepared { record, selected, programs, audited, places, modules })
 }
 
 /// What is to be done on a scenario.
@@ -391,7 +413,7 @@ fn measure(
     if work.audit {
         let total = arguments.configurations * family.programs.len() as u64;
         let bar = bar(total, &format!("audit {label}"), "{human_pos} of {human_len}  {elapsed}, {eta} to go");
-        let audited = audit::audit(device, &family.programs, &plan, &|count| bar.inc(count), stop)?;
+        let audited = audit::audit(device, &family.audited, &plan, &|count| bar.inc(count), stop)?;
         bar.finish_and_clear();
         oracle = Some(audited.oracle.into());
         digest = Some(format!("{:016x}", audited.inputs));

@@ -178,7 +178,7 @@ pub fn compare(a: &Recorded, b: &Recorded, tolerances: Tolerances) -> Comparison
             family: cell_a.family.name.clone(),
             variant: cell_a.variant.name.clone(),
             scenario: cell_a.scenario.name.clone(),
-            file: format!("glsl/{}", cell_b.variant.file),
+            file: cell_b.variant.path(),
             accuracy: audits.map(|(a, b)| accuracy::accuracy([a, b], bits, paired, level)),
             bits,
             times: timed(*cells).iter().map(|[a, b]| time::time([a, b], allowance(a.setting))).collect(),

@@ -127,7 +127,7 @@ impl Rules {
                     rule: number,
                     variant: id.clone(),
                     scenario: result.scenario.clone(),
-                    file: format!("glsl/{}", variant.file),
+                    file: variant.path(),
                     what,
                 }));
             }

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use crate::audit::{Failure, Fingerprint};
 
 pub use bits::Bits;
-pub use folder::{Folder, Recorded, default_path, read};
+pub use folder::{Folder, Recorded, default_path, module_path, read};
 pub use hunt::{Find, Hunt, hunt};
 pub use number::parse_f32;
 pub use schema::{

@@ -19,9 +19,10 @@ impl Edits {
         self.edits.push((range, new.to_owned()));
     }
 
-    /// The text with all of it done. Line breaks of what goes stay; of edits that overlap the first to begin counts.
+    /// The text with all of it done. Line breaks of what goes stay; of edits that overlap the first to begin counts, and of those the
+    /// longest.
     pub(super) fn apply(mut self, text: &str) -> String {
-        self.edits.sort_by_key(|(range, _)| (range.start, range.end));
+        self.edits.sort_by_key(|(range, _)| (range.start, std::cmp::Reverse(range.end)));
         let mut result = String::with_capacity(text.len());
         let mut at = 0;
         for (range, new) in self.edits {
