@@ -14,9 +14,9 @@
 //! Everything on that line is a pure function of (family, scenario, seed, index range, device), works on chunks of at
 //! most 2^20 configurations, and merges by integer addition and max.
 //!
-//! Who may use whom: `cli` -> `report` -> `decide` -> `record` -> `bench`, `job` -> `audit` -> `device`, `family` ->
-//! `catalog` -> `sample` -> `numeric`; `cli` -> `fit` -> `sample`; `cli`, `report` -> `probe` -> `device`, `catalog`,
-//! `sample`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
+//! Who may use whom: `cli` -> `report` -> `decide` -> `record` -> `bench`, `job`, `hunt` -> `audit` -> `device`,
+//! `family` -> `catalog` -> `sample` -> `numeric`; `cli` -> `fit` -> `sample`; `cli`, `report` -> `probe` -> `device`,
+//! `catalog`, `sample`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
 
 pub mod audit;
 pub mod bench;
@@ -26,6 +26,7 @@ pub mod decide;
 pub mod device;
 pub mod family;
 pub mod fit;
+pub mod hunt;
 pub mod job;
 pub mod numeric;
 pub mod probe;

@@ -2,6 +2,7 @@
 
 mod builtin;
 mod compare;
+mod hunt;
 mod numbers;
 mod pick;
 mod probe;
@@ -9,6 +10,7 @@ mod table;
 mod timing;
 
 pub use compare::{Form, compare, github};
+pub use hunt::hunt;
 pub use pick::pick;
 pub use probe::probes;
 pub use table::{devices, run};
