@@ -537,7 +537,14 @@ fn tables_of_four_channels_keep_their_order() {
                 for (int c = 0; c < 4; ++c) { o[c * stride + k] = a[c]; o[(c + 4) * stride + k] = b[c]; }",
             );
             let tables = vec![table("texels", 2, TableForm::Buffer), table("image", 3, TableForm::Image)];
-            let kernel = Kernel { id: "test/tables".to_owned(), spirv, inputs: 2, outputs: 8, tables };
+            let kernel = Kernel {
+                id: "test/tables".to_owned(),
+                spirv,
+                inputs: 2,
+                outputs: 8,
+                tables,
+                traps: Vec::new(),
+            };
             let rows: Vec<f32> =
                 (0..height).flat_map(|y| (0..width).flat_map(move |x| [x as f32, y as f32])).collect();
             let outputs = evaluate(device, &kernel, &rows);

@@ -18,19 +18,13 @@ pub(super) fn watch(words: &[u32]) -> Result<(Vec<u32>, Vec<String>), String> {
     let mut module = rspirv::dr::load_words(words).map_err(|error| error.to_string())?;
     let mut watch = Watch::new(&module);
     let mut functions = std::mem::take(&mut module.functions);
-    let main = module.entry_points.first().and_then(|entry| entry.operands.get(1)?.id_ref_any());
-    for function in functions.iter_mut().filter(|function| {
-        // The generated part counts on no array.
-        function.def.as_ref().and_then(|def| def.result_id) != main
-    }) {
+    for function in &mut functions {
         let mut place = String::new();
         for block in &mut function.blocks {
             let mut guarded = Vec::with_capacity(block.instructions.len());
             for mut instruction in std::mem::take(&mut block.instructions) {
                 watch.line(&instruction, &mut place);
-                if instruction.class.opcode == Op::AccessChain
-                    || instruction.class.opcode == Op::InBoundsAccessChain
-                {
+                if matches!(instruction.class.opcode, Op::AccessChain | Op::InBoundsAccessChain) {
                     watch.guard(&mut instruction, &place, &mut guarded)?;
                 }
                 guarded.push(instruction);
@@ -41,19 +35,16 @@ pub(super) fn watch(words: &[u32]) -> Result<(Vec<u32>, Vec<String>), String> {
     if watch.places.is_empty() {
         return Ok((words.to_vec(), Vec::new()));
     }
-    for function in
-        functions.iter_mut().filter(|function| function.def.as_ref().and_then(|def| def.result_id) == main)
-    {
-        for block in &mut function.blocks {
-            let mut stored = Vec::with_capacity(block.instructions.len());
-            for mut instruction in std::mem::take(&mut block.instructions) {
-                if instruction.class.opcode == Op::Store {
-                    watch.mark(&mut instruction, &mut stored);
-                }
-                stored.push(instruction);
+    // Nothing but the generated part stores to memory outside.
+    for block in functions.iter_mut().flat_map(|function| &mut function.blocks) {
+        let mut stored = Vec::with_capacity(block.instructions.len());
+        for mut instruction in std::mem::take(&mut block.instructions) {
+            if instruction.class.opcode == Op::Store {
+                watch.mark(&mut instruction, &mut stored);
             }
-            block.instructions = stored;
+            stored.push(instruction);
         }
+        block.instructions = stored;
     }
     module.functions = functions;
     module.types_global_values.extend(watch.declared);

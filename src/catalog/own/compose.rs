@@ -327,9 +327,15 @@ impl Shader {
 
     /// The first error of glslang's log.
     fn told(&self, log: &str, target: &Target<'_>, outline: Option<&Outline<'_>>) -> Error {
-        let mut errors = log.lines().filter_map(|line| line.strip_prefix("ERROR: "));
-        let first = errors.next().unwrap_or(log).trim();
-        let (file, line, message) = locate(first).unwrap_or((self.file.clone(), 0, first));
+        let mut lines = log.lines().skip_while(|line| !line.starts_with("ERROR: "));
+        let first = lines.next().and_then(|line| line.strip_prefix("ERROR: ")).unwrap_or(log).trim();
+        let Some((file, line, message)) = locate(first) else {
+            // The linker's: which functions, is told on the lines that follow.
+            let rest: Vec<&str> =
+                lines.take_while(|line| !line.starts_with("ERROR: ")).map(str::trim).collect();
+            let message = first.rsplit_once("stage: ").map_or(first, |(_, message)| message);
+            return self.fail(format!("{message} {}", rest.join(" ")).trim().to_owned());
+        };
         self.mistake(&file, line, message, target, outline)
     }
 
