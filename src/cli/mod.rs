@@ -13,6 +13,7 @@ mod fit;
 mod list;
 mod machine;
 mod pick;
+mod replay;
 mod run;
 mod selection;
 mod timing;
@@ -86,6 +87,14 @@ enum Verb {
     /// with the columns oracle.<column> (17 digits) and <variant>.<column> (9 digits), which read back to the same
     /// bits. A mistake anywhere in the input leaves no output at all.
     Eval(eval::Arguments),
+    /// Evaluate recorded failures again, here or on another device; export one for a bug report
+    ///
+    /// RUN is a run's folder or a failures.parquet. Every failure's inputs are evaluated again, bit for bit, and the list says
+    /// for each variant and scenario how many still fail with the same verdict, with another one, or no longer, and how
+    /// many outputs have the recorded bits. With --failure K it tells everything of one: inputs and outputs in decimal, as
+    /// hexadecimal floats and as bits, the truth and how certain it is, and what every other variant of the family makes of
+    /// it. Exit status: 0 whether or not they still fail.
+    Replay(replay::Arguments),
     /// What changed between two recorded runs, row by row; with --gate, whether that is allowed
     ///
     /// Two runs of another driver, device, version or day: for each variant and scenario, whether accuracy and time (apart
@@ -132,6 +141,7 @@ pub fn main() -> ExitCode {
         Verb::Audit(arguments) => run::run(&arguments.into(), run::Halves::Audit, &stop).map(Outcome::from),
         Verb::Bench(arguments) => run::run(&arguments.into(), run::Halves::Bench, &stop).map(Outcome::from),
         Verb::Eval(arguments) => eval::eval(&arguments, &stop).map(Outcome::from),
+        Verb::Replay(arguments) => replay::replay(&arguments, &stop).map(Outcome::from),
         Verb::Compare(arguments) => compare::compare(&arguments),
         Verb::Pick(arguments) => pick::pick(&arguments),
         Verb::Fit(arguments) => fit::fit(&arguments, &stop).map(Outcome::from),

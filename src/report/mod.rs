@@ -5,10 +5,12 @@ mod compare;
 mod numbers;
 mod pick;
 mod probe;
+mod replay;
 mod table;
 mod timing;
 
 pub use compare::{Form, compare, github};
 pub use pick::pick;
 pub use probe::probes;
+pub use replay::{replay, story};
 pub use table::{devices, run};
