@@ -8,7 +8,8 @@ use crate::catalog::{self, Catalog, Kernel};
 use crate::family::Problem;
 use crate::record::{self, RecordedFailure, Run};
 
-/// A run's folder, or the folder of a file with failures, and what is recorded beside them.
+/// A run's folder, or the folder of a file with failures, and what is recorded beside them. By default there is none.
+#[derive(Default)]
 pub struct Origin {
     /// As it was named.
     pub path: PathBuf,
@@ -59,6 +60,11 @@ impl Origin {
         self.run.as_ref().map(|run| device(&run.device))
     }
 
+    /// Where a run keeps the module of a shader that is the user's own.
+    pub fn shader(&self, problem: &dyn Problem, variant: &str) -> PathBuf {
+        self.folder.join("shaders").join(format!("{}.{variant}.spv", problem.name()))
+    }
+
     /// The kernel of a variant: the run's own shader where it kept one, else the catalogue's of that name.
     pub fn kernel(&self, catalog: &Catalog, problem: &dyn Problem, variant: &str) -> Result<Module, Lost> {
         let id = format!("{}/{variant}", problem.name());
@@ -66,7 +72,7 @@ impl Origin {
             let family = run.families.iter().find(|family| family.name == problem.name())?;
             family.variants.iter().find(|one| one.name == variant)
         });
-        let path = self.folder.join("shaders").join(format!("{}.{variant}.spv", problem.name()));
+        let path = self.shader(problem, variant);
         let signature = problem.signature();
         match std::fs::read(&path) {
             Ok(bytes) => {

@@ -3,6 +3,7 @@
 //! `glsl/<family>/<stem>.comp` holds front matter and one function; [`Catalog::embedded`] has them all, and
 //! [`Variant::compile`] turns one into a [`Kernel`].
 
+mod flatten;
 mod front_matter;
 mod generate;
 mod glslang;
@@ -19,6 +20,7 @@ use include_dir::{Dir, include_dir};
 
 use generate::Main;
 
+pub use flatten::compile_standalone;
 pub use front_matter::{Declaration, Define, FrontMatter};
 pub use kernel::{Kernel, TableBinding, TableForm};
 pub use operations::Operations;

@@ -12,6 +12,7 @@ mod exhaustive;
 mod fit;
 mod list;
 mod machine;
+mod minimize;
 mod pick;
 mod replay;
 mod run;
@@ -95,6 +96,14 @@ enum Verb {
     /// hexadecimal floats and as bits, the truth and how certain it is, and what every other variant of the family makes of
     /// it. Exit status: 0 whether or not they still fail.
     Replay(replay::Arguments),
+    /// Shrink a failing configuration to one that a person can read and that fails in the same way
+    ///
+    /// Tries whole populations of simpler configurations at a time (zeros, ones, powers of two, few bits or digits, equal or
+    /// axis-aligned or unit vectors) and takes the simplest that has the same verdict, again and again until none has. A
+    /// configuration counts only where the oracle is certain and, if other variants of the family were right at the start,
+    /// one of them still is. The same failure on the same device always ends in the same bits. Shows both side by side, and
+    /// for each input what became of simpler values.
+    Minimize(minimize::Arguments),
     /// What changed between two recorded runs, row by row; with --gate, whether that is allowed
     ///
     /// Two runs of another driver, device, version or day: for each variant and scenario, whether accuracy and time (apart
@@ -142,6 +151,7 @@ pub fn main() -> ExitCode {
         Verb::Bench(arguments) => run::run(&arguments.into(), run::Halves::Bench, &stop).map(Outcome::from),
         Verb::Eval(arguments) => eval::eval(&arguments, &stop).map(Outcome::from),
         Verb::Replay(arguments) => replay::replay(&arguments, &stop).map(Outcome::from),
+        Verb::Minimize(arguments) => minimize::minimize(&arguments, &stop).map(Outcome::from),
         Verb::Compare(arguments) => compare::compare(&arguments),
         Verb::Pick(arguments) => pick::pick(&arguments),
         Verb::Fit(arguments) => fit::fit(&arguments, &stop).map(Outcome::from),

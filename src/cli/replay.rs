@@ -1,5 +1,6 @@
 //! `rootq replay`: recorded failures, evaluated again.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -7,10 +8,11 @@ use anyhow::{Result, anyhow, bail};
 use clap::Args;
 use serde_json::json;
 
+use super::draft::{deliver, draft, is_dash};
 use super::machine::DeviceArguments;
 use super::{run, selection};
 use crate::case::replay::Now;
-use crate::case::{self, Answer, Origin, Replay, Story, origin};
+use crate::case::{self, Answer, Origin, Replay, Story, amber, glsl, origin};
 use crate::catalog::{Catalog, Kernel};
 use crate::device::{Device, Error, vulkan::VulkanDevice};
 use crate::family::Problem;
@@ -39,6 +41,12 @@ pub(super) struct Arguments {
     /// Only failures of this scenario; may be given again [default: all]
     #[arg(long, value_name = "S", conflicts_with = "failure")]
     scenario: Vec<String>,
+    /// Write the failure as an Amber script; '-' is standard output, in the place of the story
+    #[arg(long, value_name = "FILE", requires = "failure")]
+    amber: Option<PathBuf>,
+    /// Write the failure as a self-contained GLSL compute shader; '-' likewise
+    #[arg(long, value_name = "FILE", requires = "failure")]
+    glsl: Option<PathBuf>,
     #[command(flatten)]
     device: DeviceArguments,
     /// Everything as JSON
@@ -153,7 +161,10 @@ fn select<'a>(arguments: &Arguments, origin: &'a Origin) -> Result<Vec<(usize, &
     let is = |failure: &RecordedFailure, name: &String| *name == failure.variant || *name == failure.id();
     for name in &arguments.variant {
         if !origin.failures.iter().any(|failure| is(failure, name)) {
-            let known = origin.failures.iter().map(RecordedFailure::id);
+            let known = origin
+                .failures
+                .iter()
+                .map(|failure| if name.contains('/') { failure.id() } else { failure.variant.clone() });
             bail!("no failure of variant '{name}' was recorded{}", near(name, known));
         }
     }
@@ -216,8 +227,55 @@ fn one(arguments: &Arguments, origin: &Origin, catalog: &Catalog, number: usize)
     }
     machine.check_validation()?;
     let story = Story::new(number, recorded, origin.device(), here, &answers);
+    let exports = export(arguments, origin, catalog, recorded, &story, &answers)?;
+    for (path, text) in &exports {
+        let file = draft(path)?;
+        file.as_file().write_all(text.as_bytes())?;
+        deliver(file, path)?;
+        if !is_dash(path) {
+            eprintln!("written: {}", path.display());
+        }
+    }
+    if exports.iter().any(|(path, _)| is_dash(path)) {
+        return Ok(());
+    }
     if arguments.json {
         return super::print(&format!("{:#}\n", json!(story)));
     }
     super::print(&report::story(&story, super::colour()))
+}
+
+/// The files that are asked for, all of them or none.
+fn export(
+    arguments: &Arguments,
+    origin: &Origin,
+    catalog: &Catalog,
+    recorded: &RecordedFailure,
+    story: &Story,
+    answers: &[(String, Result<Answer, String>)],
+) -> Result<Vec<(PathBuf, String)>> {
+    let mut exports = Vec::new();
+    if arguments.amber.is_none() && arguments.glsl.is_none() {
+        return Ok(exports);
+    }
+    let (problem, id) = (recorded.problem, recorded.id());
+    // Where it does not run here, what was seen is what was recorded.
+    let seen = match answers.first() {
+        Some((_, Ok(answer))) => answer.clone(),
+        _ => Answer::from(&recorded.failure),
+    };
+    if let Some(path) = &arguments.amber {
+        let module = origin.kernel(catalog, problem, &recorded.variant)?;
+        let script = amber::script(problem, &module.kernel, recorded, story, &seen);
+        exports.push((path.clone(), script.map_err(|why| anyhow!("no Amber script of {id}: {why}"))?));
+    }
+    if let Some(path) = &arguments.glsl {
+        let variant = catalog.family(problem.name()).find(|variant| variant.name == recorded.variant);
+        let snippet = glsl::snippet(problem, variant, story, &seen);
+        exports.push((path.clone(), snippet.map_err(|why| anyhow!("no GLSL of {id}: {why}"))?));
+    }
+    if exports.iter().filter(|(path, _)| is_dash(path)).count() > 1 {
+        bail!("only one of --amber and --glsl can go to standard output");
+    }
+    Ok(exports)
 }

@@ -6,6 +6,7 @@ mod numbers;
 mod pick;
 mod probe;
 mod replay;
+mod shrunk;
 mod table;
 mod timing;
 
@@ -13,4 +14,5 @@ pub use compare::{Form, compare, github};
 pub use pick::pick;
 pub use probe::probes;
 pub use replay::{replay, story};
+pub use shrunk::shrunk;
 pub use table::{devices, run};
