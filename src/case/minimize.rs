@@ -1,6 +1,6 @@
 //! Shrinks a failing configuration to one that a person can read.
 //!
-//! Each step tries a whole population of simpler configurations ([`super::simpler`]) at once and takes the cheapest that
+//! Each step tries a whole population of simpler configurations at once and takes the cheapest that
 //! still fails in the same way; the last step is the one in which none does. [`cost`] falls with every step, and nothing
 //! is random, so that it ends, and ends the same way every time.
 
@@ -97,16 +97,24 @@ impl Kept {
     /// In words: `all 12 simpler values pass`; empty if there is no simpler one.
     pub fn words(&self) -> String {
         let Kept { tried, pass, other, unfair } = *self;
-        if tried == 0 {
-            return String::new();
+        let parts: Vec<String> = [
+            (pass, "passes", "pass"),
+            (other, "fails otherwise", "fail otherwise"),
+            (unfair, "is unfair", "are unfair"),
+        ]
+        .into_iter()
+        .filter(|(count, ..)| *count > 0)
+        .map(|(count, one, several)| match (count == tried, count) {
+            (true, 1) => format!("the only simpler value {one}"),
+            (true, _) => format!("all {count} simpler values {several}"),
+            (false, 1) => format!("1 {one}"),
+            (false, _) => format!("{count} {several}"),
+        })
+        .collect();
+        match parts.len() {
+            0 | 1 => parts.concat(),
+            _ => format!("of {tried} simpler values {}", parts.join(", ")),
         }
-        let parts = [(pass, "pass"), (other, "fail otherwise"), (unfair, "are out of the domain")];
-        let parts = parts.into_iter().filter(|(count, _)| *count > 0);
-        let parts = parts.map(|(count, what)| match count == tried {
-            true => format!("all {what}"),
-            false => format!("{count} {what}"),
-        });
-        format!("of {tried} simpler values {}", parts.collect::<Vec<String>>().join(", "))
     }
 }
 
@@ -159,10 +167,15 @@ mod tests {
         assert_eq!(found.values, [-1.0, 0.0, 0.0, 0.100_97]);
         assert!(found.kept[3].tried > 20 && found.kept[3].pass == found.kept[3].tried, "{:?}", found.kept);
         assert_eq!(found.kept[1], Kept::default());
-        assert!(found.kept[3].words().ends_with("simpler values all pass"), "{}", found.kept[3].words());
+        let all = format!("all {} simpler values pass", found.kept[3].tried);
+        assert_eq!(found.kept[3].words(), all);
         assert_eq!(found.kept[1].words(), "");
+        assert_eq!(
+            Kept { tried: 1, other: 1, ..Kept::default() }.words(),
+            "the only simpler value fails otherwise"
+        );
         let mixed = Kept { tried: 3, pass: 2, other: 0, unfair: 1 };
-        assert_eq!(mixed.words(), "of 3 simpler values 2 pass, 1 are out of the domain");
+        assert_eq!(mixed.words(), "of 3 simpler values 2 pass, 1 is unfair");
     }
 
     proptest! {

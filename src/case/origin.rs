@@ -13,7 +13,7 @@ use crate::record::{self, RecordedFailure, Run};
 pub struct Origin {
     /// As it was named.
     pub path: PathBuf,
-    folder: PathBuf,
+    folder: Option<PathBuf>,
     /// Absent where there is no `run.json`, such as beside what `hunt` and `minimize` write.
     pub run: Option<Run>,
     pub failures: Vec<RecordedFailure>,
@@ -52,7 +52,7 @@ impl Origin {
             Err(record::Error::NoRun { .. }) => None,
             Err(error) => return Err(error),
         };
-        Ok(Origin { path: path.to_owned(), folder, run, failures })
+        Ok(Origin { path: path.to_owned(), folder: Some(folder), run, failures })
     }
 
     /// Device and driver of the run, if they are recorded.
@@ -61,8 +61,9 @@ impl Origin {
     }
 
     /// Where a run keeps the module of a shader that is the user's own.
-    pub fn shader(&self, problem: &dyn Problem, variant: &str) -> PathBuf {
-        self.folder.join("shaders").join(format!("{}.{variant}.spv", problem.name()))
+    pub fn shader(&self, problem: &dyn Problem, variant: &str) -> Option<PathBuf> {
+        let file = format!("{}.{variant}.spv", problem.name());
+        self.folder.as_ref().map(|folder| folder.join("shaders").join(file))
     }
 
     /// The kernel of a variant: the run's own shader where it kept one, else the catalogue's of that name.
@@ -72,8 +73,8 @@ impl Origin {
             let family = run.families.iter().find(|family| family.name == problem.name())?;
             family.variants.iter().find(|one| one.name == variant)
         });
-        let path = self.shader(problem, variant);
         let signature = problem.signature();
+        let path = self.shader(problem, variant).unwrap_or_default();
         match std::fs::read(&path) {
             Ok(bytes) => {
                 let sha256 = hash(&bytes);

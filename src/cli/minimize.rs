@@ -87,7 +87,7 @@ pub(super) fn minimize(arguments: &Arguments, stop: &AtomicBool) -> Result<()> {
             "the oracle does not certify the truth of this configuration: what is simpler could not be judged"
         );
     }
-    shrinker.find_witnesses(&start.inputs)?;
+    shrinker.find_witnesses()?;
     let found = case::minimize(&problem.signature(), &start.inputs, |rows| shrinker.judge(rows, verdict))?;
     let after = shrinker.answer(&found.values)?;
     machine.check_validation()?;
@@ -151,27 +151,26 @@ type Program = <VulkanDevice as Device>::Program;
 
 /// The failing variant, and others that know the right answer.
 struct Shrinker<'a> {
+    start: &'a Start,
     problem: &'static dyn Problem,
+    catalog: &'a Catalog,
     machine: &'a Machine,
     stop: &'a AtomicBool,
     program: Program,
-    /// Of every other variant of the family that runs here, then those that are right at the start.
     witnesses: Vec<Program>,
 }
 
 impl<'a> Shrinker<'a> {
-    fn new(start: &Start, catalog: &Catalog, machine: &'a Machine, stop: &'a AtomicBool) -> Result<Self> {
+    fn new(
+        start: &'a Start,
+        catalog: &'a Catalog,
+        machine: &'a Machine,
+        stop: &'a AtomicBool,
+    ) -> Result<Self> {
         let problem = start.problem;
-        let program =
-            |variant: &str| replay::program(&start.origin, catalog, &machine.device, problem, variant);
-        let (own, _) = program(&start.variant)?.map_err(|why| anyhow!(why))?;
-        let mut witnesses = Vec::new();
-        for variant in catalog.family(problem.name()).filter(|variant| variant.name != start.variant) {
-            if let Ok((program, _)) = program(&variant.name)? {
-                witnesses.push(program);
-            }
-        }
-        Ok(Shrinker { problem, machine, stop, program: own, witnesses })
+        let program = replay::program(&start.origin, catalog, &machine.device, problem, &start.variant)?;
+        let (program, _) = program.map_err(|why| anyhow!(why))?;
+        Ok(Shrinker { start, problem, catalog, machine, stop, program, witnesses: Vec::new() })
     }
 
     fn evaluate(&self, program: &Program, rows: &[f32]) -> Result<Vec<Answer>> {
@@ -182,16 +181,21 @@ impl<'a> Shrinker<'a> {
         self.evaluate(&self.program, inputs)?.pop().ok_or_else(|| anyhow!("the device gave no answer"))
     }
 
-    /// Keeps the first variants that are right on the configuration.
-    fn find_witnesses(&mut self, inputs: &[f32]) -> Result<()> {
-        let mut right = Vec::new();
-        for program in std::mem::take(&mut self.witnesses) {
-            let answers = self.evaluate(&program, inputs)?;
-            if right.len() < WITNESSES && answers.iter().all(|answer| answer.verdict == Verdict::Ok) {
-                right.push(program);
+    /// Finds the first other variants that are right at the start.
+    fn find_witnesses(&mut self) -> Result<()> {
+        let Start { problem, variant, inputs, origin, .. } = self.start;
+        let others = self.catalog.family(problem.name()).filter(|other| other.name != *variant);
+        for other in others {
+            if self.witnesses.len() == WITNESSES {
+                break;
+            }
+            let program = replay::program(origin, self.catalog, &self.machine.device, *problem, &other.name)?;
+            if let Ok((program, _)) = program
+                && self.evaluate(&program, inputs)?.iter().all(|answer| answer.verdict == Verdict::Ok)
+            {
+                self.witnesses.push(program);
             }
         }
-        self.witnesses = right;
         Ok(())
     }
 
@@ -270,7 +274,9 @@ impl Out {
             std::fs::create_dir_all(folder).with_context(|| format!("cannot create {}", folder.display()))?;
             // A shader of the user's own goes with its failure.
             let own = start.origin.shader(problem, &start.variant);
-            if let (Some(name), true) = (own.file_name(), own.is_file()) {
+            if let Some(own) = own.filter(|own| own.is_file())
+                && let Some(name) = own.file_name()
+            {
                 let shaders = folder.join("shaders");
                 std::fs::create_dir_all(&shaders)
                     .and_then(|()| std::fs::copy(&own, shaders.join(name)))

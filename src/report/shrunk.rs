@@ -23,7 +23,7 @@ pub fn shrunk(shrunk: &Shrunk, colour: bool) -> String {
         before.cost,
         after.cost
     );
-    let header = ["input", "before", "after", "bits before", "bits after", "why not simpler"];
+    let header = ["input", "before", "after", "hexadecimal", "bits before", "bits after", "why not simpler"];
     let mut table = table::table(&header, colour);
     for ((before, after), kept) in before.inputs.iter().zip(&after.inputs).zip(&shrunk.kept) {
         let now = Cell::new(decimal(after.value));
@@ -31,6 +31,7 @@ pub fn shrunk(shrunk: &Shrunk, colour: bool) -> String {
             Cell::new(&before.column),
             Cell::new(decimal(before.value)),
             if before.bits == after.bits { now } else { now.fg(Color::Green) },
+            Cell::new(&after.hex),
             Cell::new(&before.bits),
             Cell::new(&after.bits),
             Cell::new(kept.words()),
@@ -62,6 +63,11 @@ pub fn shrunk(shrunk: &Shrunk, colour: bool) -> String {
             size(after.told.errors[position]),
             size(before.told.ulps[position]),
             size(after.told.ulps[position])
+        );
+    }
+    if shrunk.kept.iter().any(|kept| kept.unfair > 0) {
+        text.push_str(
+            "unfair: the oracle is not certain of it, or no variant is right on it that was right before.\n",
         );
     }
     text
