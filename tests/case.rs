@@ -408,3 +408,44 @@ fn a_configuration_of_the_users_own_is_minimized() {
         assert!(lines.len() == 1 && lines[0].contains(expected), "{stderr}");
     }
 }
+
+/// The run keeps the module of a shader that is not built in: it is replayed without the file, and goes with what is
+/// made smaller.
+#[test]
+fn a_shader_of_the_users_own_needs_no_file_to_be_replayed() {
+    let folder = tempfile::tempdir().unwrap();
+    let (run, small) = (folder.path().join("run"), folder.path().join("small"));
+    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/shaders");
+    let brought = ["--shader", "mine=axes.wgsl", "--adapter", "axes.toml"];
+    let mut audit = rootq();
+    audit.current_dir(&shaders).args(["audit", "ellipse_axes/mine", "-n", "5K", "--max-failures", "3"]);
+    succeeds(audit.args(brought).args(["--device", "llvmpipe", "--out"]).arg(&run));
+    let told = |path: &Path, more: &[&str]| {
+        let mut command = rootq();
+        command.current_dir(&shaders).args(["replay", "--json", "--device", "llvmpipe"]).arg(path).args(more);
+        let value: Value = serde_json::from_str(&succeeds(&mut command)).unwrap();
+        value["groups"].as_array().unwrap().clone()
+    };
+    let again = |groups: &[Value]| {
+        assert!(!groups.is_empty());
+        let same = |group: &Value| group["same_bits"] == group["failures"] && group.get("skipped").is_none();
+        assert!(groups.iter().all(same), "{groups:?}");
+    };
+    again(&told(&run, &[]));
+    again(&told(&run, &brought));
+    let mut minimize = rootq();
+    minimize.args(["minimize", "--failure", "1", "--device", "llvmpipe"]).arg(&run).arg("--out").arg(&small);
+    succeeds(&mut minimize);
+    again(&told(&small, &[]));
+
+    let module = run.join("shaders/ellipse_axes.mine.spv");
+    let mut bytes = std::fs::read(&module).unwrap();
+    bytes[20] ^= 1;
+    std::fs::write(&module, bytes).unwrap();
+    let skipped = told(&run, &[])[0]["skipped"].as_str().unwrap().to_owned();
+    assert!(skipped.contains("is not the shader that the run recorded: its SHA-256 is "), "{skipped}");
+    std::fs::remove_file(&module).unwrap();
+    let skipped = told(&run, &[])[0]["skipped"].as_str().unwrap().to_owned();
+    assert!(skipped.ends_with("kept no module of it; --shader brings it"), "{skipped}");
+    again(&told(&run, &brought));
+}

@@ -10,7 +10,7 @@ use crate::family::Problem;
 /// Why there is no GLSL of a failure.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Impossible {
-    #[error("its text is not at hand; --amber exports its SPIR-V")]
+    #[error("it is not one of rootq's own functions; --amber exports its SPIR-V")]
     NoText,
     #[error("it reads tables, which a snippet cannot hold; --amber exports them where they are buffers")]
     Tables,

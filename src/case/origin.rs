@@ -22,10 +22,12 @@ pub struct Origin {
 /// A variant ready to be made a program, or why it cannot be.
 #[derive(Debug, thiserror::Error)]
 pub enum Lost {
-    #[error("{id} is not built into this rootq, and the run kept no shader of it ({})", path.display())]
-    Absent { id: String, path: PathBuf },
+    #[error("{id} is not built into this rootq, and the run kept no module of it; --shader brings it")]
+    Absent { id: String },
     #[error("{} is not the shader that the run recorded: its SHA-256 is {is}", path.display())]
     Changed { path: PathBuf, is: String },
+    #[error("{id} reads a table that this rootq does not have: {message}")]
+    Table { id: String, message: String },
     #[error("{} is not SPIR-V: {message}", path.display())]
     NotSpirv { path: PathBuf, message: &'static str },
     #[error("cannot read {}: {source}", path.display())]
@@ -62,11 +64,10 @@ impl Origin {
 
     /// Where a run keeps the module of a shader that is the user's own.
     pub fn shader(&self, problem: &dyn Problem, variant: &str) -> Option<PathBuf> {
-        let file = format!("{}.{variant}.spv", problem.name());
-        self.folder.as_ref().map(|folder| folder.join("shaders").join(file))
+        self.folder.as_ref().map(|folder| record::module_path(folder, problem.name(), variant))
     }
 
-    /// The kernel of a variant: the run's own shader where it kept one, else the catalogue's of that name.
+    /// The kernel of a variant: the user's own in the catalogue, else the module that the run kept, else what is built in.
     pub fn kernel(&self, catalog: &Catalog, problem: &dyn Problem, variant: &str) -> Result<Module, Lost> {
         let id = format!("{}/{variant}", problem.name());
         let recorded = self.run.as_ref().and_then(|run| {
@@ -74,26 +75,38 @@ impl Origin {
             family.variants.iter().find(|one| one.name == variant)
         });
         let signature = problem.signature();
+        let known = catalog.family(problem.name()).find(|one| one.name == variant);
         let path = self.shader(problem, variant).unwrap_or_default();
-        match std::fs::read(&path) {
-            Ok(bytes) => {
-                let sha256 = hash(&bytes);
-                if recorded.is_some_and(|recorded| recorded.spirv.sha256 != sha256) {
-                    return Err(Lost::Changed { path, is: sha256 });
+        if known.is_none_or(|known| !known.is_own()) {
+            match std::fs::read(&path) {
+                Ok(bytes) => {
+                    let sha256 = hash(&bytes);
+                    if recorded.is_some_and(|recorded| recorded.spirv.sha256 != sha256) {
+                        return Err(Lost::Changed { path, is: sha256 });
+                    }
+                    let spirv = match words(&bytes) {
+                        Ok(spirv) => spirv,
+                        Err(message) => return Err(Lost::NotSpirv { path, message }),
+                    };
+                    let tables = recorded.map(|recorded| catalog::table_bindings(&recorded.tables));
+                    let tables =
+                        tables.transpose().map_err(|message| Lost::Table { id: id.clone(), message })?;
+                    let kernel = Kernel {
+                        id,
+                        spirv,
+                        inputs: signature.input_columns().len(),
+                        outputs: signature.output_columns().len(),
+                        tables: tables.unwrap_or_default(),
+                    };
+                    return Ok(Module { kernel, note: None });
                 }
-                let spirv = words(&bytes).map_err(|message| Lost::NotSpirv { path, message })?;
-                let (inputs, outputs) = (signature.input_columns().len(), signature.output_columns().len());
-                let kernel = Kernel { id, spirv, inputs, outputs, tables: Vec::new() };
-                return Ok(Module { kernel, note: None });
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(Lost::Io { path, source: error });
+                }
+                Err(_) => {}
             }
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                return Err(Lost::Io { path, source: error });
-            }
-            Err(_) => {}
         }
-        let built_in = catalog.family(problem.name()).find(|one| one.name == variant);
-        let compiled =
-            built_in.ok_or_else(|| Lost::Absent { id: id.clone(), path })?.compile(&signature, false)?;
+        let compiled = known.ok_or_else(|| Lost::Absent { id: id.clone() })?.compile(&signature, false)?;
         let changed = recorded.is_some_and(|recorded| recorded.spirv.sha256 != compiled.facts.sha256);
         let note = changed.then(|| format!("{id} compiles to other SPIR-V now than in the run"));
         Ok(Module { kernel: compiled.kernel, note })

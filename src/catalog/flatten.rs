@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::{BUILT_IN, Signature, Variant, generate, glslang};
+use super::generate::glsl;
+use super::glslang::{self, Source};
+use super::{Signature, Variant, built_in};
 
 /// Lines that a compiler other than the harness's own need not know.
 const OWN: &str = "#extension GL_GOOGLE_";
@@ -14,27 +16,28 @@ impl Variant {
         if !self.tables.is_empty() {
             return None;
         }
-        let prologue = generate::prologue(signature, self.defines.iter());
+        let prologue = glsl::prologue(signature, self.defines.iter());
         let mut text = String::new();
         for line in prologue.lines().filter(|line| !line.starts_with(OWN)) {
             text.push_str(line);
             text.push('\n');
         }
-        text.push_str(&self.flattened());
+        text.push_str(&flattened(self.function()?));
         Some(text)
     }
+}
 
-    fn flattened(&self) -> String {
-        let body = self.text.split_once(FRONT_MATTER_ENDS).map_or(self.text.as_str(), |(_, body)| body);
-        let mut text = String::new();
-        flatten(body.trim_start(), 0, 0, &mut BTreeSet::new(), &mut text);
-        text
-    }
+/// The text after its front matter, with its includes in place.
+fn flattened(text: &str) -> String {
+    let body = text.split_once(FRONT_MATTER_ENDS).map_or(text, |(_, body)| body);
+    let mut flat = String::new();
+    flatten(body.trim_start(), 0, 0, &mut BTreeSet::new(), &mut flat);
+    flat
 }
 
 /// Compiles a whole compute shader that includes nothing. The error is the compiler's first.
 pub fn compile_standalone(text: &str) -> Result<Vec<u32>, String> {
-    glslang::compile(text, &|_, _| None, false).map_err(|log| {
+    glslang::compile(Source::glsl(text), false).map_err(|log| {
         log.lines().find_map(|line| line.strip_prefix("ERROR: ")).unwrap_or(&log).trim().to_owned()
     })
 }
@@ -56,7 +59,7 @@ fn flatten(source: &str, outer: usize, guards: usize, seen: &mut BTreeSet<String
         }
         let conditions = outer + own.saturating_sub(guards);
         let name = directive.strip_prefix("#include").map(|rest| rest.trim().trim_matches('"'));
-        let included = name.and_then(|name| Some((name, BUILT_IN.get_file(name)?.contents_utf8()?)));
+        let included = name.and_then(|name| Some((name, built_in(name)?)));
         match included {
             Some((name, _)) if seen.contains(name) => {}
             Some((name, included)) => {
@@ -76,27 +79,38 @@ fn flatten(source: &str, outer: usize, guards: usize, seen: &mut BTreeSet<String
 }
 #[cfg(test)]
 mod tests {
-    use super::super::{Catalog, generate::Main};
     use super::*;
-    use crate::catalog::{Field, Type};
+    use crate::catalog::generate::Main;
+    use crate::catalog::{Catalog, Field, Type, reflect, table};
+    use crate::family;
 
     /// Every built-in variant, word by word: what is included, and in which order, is what the compiler would include.
     #[test]
     fn the_text_alone_is_the_same_shader() {
         for variant in Catalog::embedded().unwrap().variants() {
-            let problem = crate::family::find(&variant.family).unwrap().signature();
-            let mut alone = variant.clone();
-            alone.text = variant.flattened();
-            assert!(!alone.text.contains("#include"), "{}", variant.id());
-            let spirv = |variant: &Variant| variant.compile(&problem, false).unwrap().kernel.spirv;
-            assert!(spirv(&alone) == spirv(variant), "{}", variant.id());
+            let signature = family::find(&variant.family).unwrap().signature();
+            let text = flattened(variant.function().unwrap());
+            assert!(!text.contains("#include"), "{}", variant.id());
+            let whole = format!(
+                "{}{}{text}{}",
+                glsl::prologue(&signature, variant.defines.iter()),
+                glsl::tables(&table::bindings(&variant.tables)),
+                glsl::epilogue(&signature, Main::Evaluate),
+            );
+            let mut alone = compile_standalone(&whole).unwrap();
+            if variant.precise {
+                alone = reflect::forbid_contraction(&alone).unwrap();
+            }
+            let spirv = variant.compile(&signature, false).unwrap().kernel.spirv;
+            assert!(alone == spirv, "{}", variant.id());
         }
     }
 
     #[test]
     fn includes_are_replaced_once_and_front_matter_goes() {
         let text = "/*---\nsummary = \"s\"\nsource = \"o\"\n[[variant]]\nname = \"a\"\n---*/\n\
-                    #include \"common/ellipsoid_disk.glsl\"\n#include \"common/power_of_two.glsl\"\nfloat f(float x) { return x; }\n";
+                    #include \"common/ellipsoid_disk.glsl\"\n#include \"common/power_of_two.glsl\"\n\
+                    float f(float x) { return x; }\n";
         let variant = &Variant::parse("f", "f/a.comp", text).unwrap()[0];
         let signature = Signature {
             function: "f",
@@ -109,7 +123,7 @@ mod tests {
             !text.contains("#include") && !text.contains("---*/") && !text.contains("GL_GOOGLE"),
             "{text}"
         );
-        let main = generate::epilogue(&signature, Main::Evaluate);
+        let main = glsl::epilogue(&signature, Main::Evaluate);
         compile_standalone(&format!("{text}{main}")).unwrap();
         let told = compile_standalone(&text).unwrap_err();
         assert!(told.contains("entry point") && !told.contains('\n'), "{told}");

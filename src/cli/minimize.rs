@@ -10,6 +10,7 @@ use serde_json::json;
 
 use super::draft::is_dash;
 use super::machine::{DeviceArguments, Machine};
+use super::shader::ShaderArguments;
 use super::{replay, selection};
 use crate::audit::{Failure, Fingerprint, Verdict};
 use crate::case::minimize::{Minimized, Outcome};
@@ -42,6 +43,8 @@ pub(super) struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     device: DeviceArguments,
+    #[command(flatten)]
+    shaders: ShaderArguments,
     /// Everything as JSON
     #[arg(long)]
     json: bool,
@@ -64,7 +67,8 @@ struct Start {
 }
 
 pub(super) fn minimize(arguments: &Arguments, stop: &AtomicBool) -> Result<()> {
-    let catalog = Catalog::embedded()?;
+    let mut catalog = Catalog::embedded()?;
+    arguments.shaders.bring(&mut catalog, None)?;
     let start = start(arguments, &catalog)?;
     let out = arguments.out.as_deref().map(Out::new).transpose()?;
     let (problem, id) = (start.problem, format!("{}/{}", start.problem.name(), start.variant));

@@ -17,6 +17,7 @@ mod pick;
 mod replay;
 mod run;
 mod selection;
+mod shader;
 mod timing;
 
 use std::io::IsTerminal;

@@ -10,6 +10,7 @@ use serde_json::json;
 
 use super::draft::{deliver, draft, is_dash};
 use super::machine::DeviceArguments;
+use super::shader::ShaderArguments;
 use super::{run, selection};
 use crate::case::replay::Now;
 use crate::case::{self, Answer, Origin, Replay, Story, amber, glsl, origin};
@@ -49,6 +50,8 @@ pub(super) struct Arguments {
     glsl: Option<PathBuf>,
     #[command(flatten)]
     device: DeviceArguments,
+    #[command(flatten)]
+    shaders: ShaderArguments,
     /// Everything as JSON
     #[arg(long)]
     json: bool,
@@ -56,7 +59,8 @@ pub(super) struct Arguments {
 
 pub(super) fn replay(arguments: &Arguments, stop: &AtomicBool) -> Result<()> {
     let origin = Origin::read(&arguments.run)?;
-    let catalog = Catalog::embedded()?;
+    let mut catalog = Catalog::embedded()?;
+    arguments.shaders.bring(&mut catalog, None)?;
     match arguments.failure {
         Some(number) => one(arguments, &origin, &catalog, number),
         None => all(arguments, &origin, &catalog, stop),
