@@ -56,8 +56,14 @@ fn on_every_device(test: impl Fn(&str, &VulkanDevice)) {
 
 /// Outputs of a shader with one configuration, as many as it has.
 fn outputs(device: &VulkanDevice, spirv: Vec<u32>, inputs: &[f32], outputs: usize) -> Vec<f32> {
-    let kernel =
-        Kernel { id: "test/export".to_owned(), spirv, inputs: inputs.len(), outputs, tables: Vec::new() };
+    let kernel = Kernel {
+        id: "test/export".to_owned(),
+        spirv,
+        inputs: inputs.len(),
+        outputs,
+        tables: Vec::new(),
+        traps: Vec::new(),
+    };
     let program = device.program(&kernel).unwrap();
     let columns = device.upload(inputs, inputs.len()).unwrap();
     let finished = device.wait(device.submit(&program, &columns).unwrap()).unwrap();

@@ -6,6 +6,7 @@ use super::evaluate::Answer;
 use super::story::Story;
 use crate::catalog::{self, Signature, Type, Variant};
 use crate::family::Problem;
+use crate::record::decimal_f32;
 
 /// Why there is no GLSL of a failure.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -60,7 +61,7 @@ pub fn snippet(
         let numbers: Vec<_> = inputs.by_ref().take(count).collect();
         let bits: Vec<String> =
             numbers.iter().map(|number| format!("uintBitsToFloat({}u ^ zero)", number.bits)).collect();
-        let decimals: Vec<String> = numbers.iter().map(|number| decimal(number.value)).collect();
+        let decimals: Vec<String> = numbers.iter().map(|number| decimal_f32(number.value)).collect();
         let ty = parameter.ty.glsl();
         _ = writeln!(
             text,
@@ -84,17 +85,13 @@ pub fn snippet(
             "    outputs[{column}] = {value}; // {}: exactly {:.16e}, seen {} (0x{:08x})",
             story.truth.columns[column],
             story.truth.values[column],
-            decimal(seen.outputs[column]),
+            decimal_f32(seen.outputs[column]),
             seen.outputs[column].to_bits()
         );
     }
     text.push_str("}\n");
     catalog::compile_standalone(&text).map_err(Impossible::Broken)?;
     Ok(text)
-}
-
-fn decimal(value: f32) -> String {
-    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
 }
 
 /// What failed where, one line each.

@@ -38,7 +38,10 @@ pub enum Lost {
 
 /// A kernel and what is to be said of it.
 pub struct Module {
+    /// As it was audited.
     pub kernel: Kernel,
+    /// The same to be run here: one that tells where it would leave its arrays, where there is one.
+    pub safe: Kernel,
     /// Where the shader is not that of the run, by its hash: how it differs.
     pub note: Option<String>,
 }
@@ -97,8 +100,9 @@ impl Origin {
                         inputs: signature.input_columns().len(),
                         outputs: signature.output_columns().len(),
                         tables: tables.unwrap_or_default(),
+                        traps: Vec::new(),
                     };
-                    return Ok(Module { kernel, note: None });
+                    return Ok(Module { safe: kernel.clone(), kernel, note: None });
                 }
                 Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
                     return Err(Lost::Io { path, source: error });
@@ -109,7 +113,7 @@ impl Origin {
         let compiled = known.ok_or_else(|| Lost::Absent { id: id.clone() })?.compile(&signature, false)?;
         let changed = recorded.is_some_and(|recorded| recorded.spirv.sha256 != compiled.facts.sha256);
         let note = changed.then(|| format!("{id} compiles to other SPIR-V now than in the run"));
-        Ok(Module { kernel: compiled.kernel, note })
+        Ok(Module { kernel: compiled.kernel.clone(), safe: compiled.into_safe(), note })
     }
 }
 

@@ -29,7 +29,7 @@ impl Fate {
         }
     }
 
-    /// In words: `fails with the same verdict`.
+    /// In words: `fails again with the same verdict`.
     pub fn words(self) -> &'static str {
         match self {
             Fate::Same => "fails again with the same verdict",

@@ -119,7 +119,7 @@ pub fn copy_kernel() -> Result<Kernel, Error> {
     let spirv = glslang::compile(Source::glsl(&glsl::copy()), false)
         .map_err(|message| Error::Reflection { id: id.clone(), message })?;
     let columns = glsl::COPIED_COLUMNS;
-    Ok(Kernel { id, spirv, inputs: columns, outputs: columns, tables: Vec::new() })
+    Ok(Kernel { id, spirv, inputs: columns, outputs: columns, tables: Vec::new(), traps: Vec::new() })
 }
 
 /// Splits `file:line: message`, where the message may hold colons.

@@ -36,9 +36,9 @@ pub(super) fn compile(text: &str, entry: &str) -> Result<Vec<u32>, Mistake> {
     let options = spv::Options {
         lang_version: (1, 3),
         flags: spv::WriterFlags::empty(),
-        // What a shader indexes stays within its own arrays; the generated part stays within the columns.
+        // The generated part stays within the columns, and the rest is watched like every other language's.
         bounds_check_policies: BoundsCheckPolicies {
-            index: BoundsCheckPolicy::Restrict,
+            index: BoundsCheckPolicy::Unchecked,
             buffer: BoundsCheckPolicy::Unchecked,
             ..BoundsCheckPolicies::default()
         },

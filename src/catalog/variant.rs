@@ -43,7 +43,17 @@ enum Text {
 #[derive(Clone, Debug)]
 pub struct Compiled {
     pub kernel: Kernel,
+    /// The same for an audit, of a shader of the user's own that indexes arrays: with every index watched, and slower.
+    pub watched: Option<Kernel>,
+    /// Of `kernel`.
     pub facts: Facts,
+}
+
+impl Compiled {
+    /// The kernel to evaluate where its time does not matter.
+    pub fn into_safe(self) -> Kernel {
+        self.watched.unwrap_or(self.kernel)
+    }
 }
 
 impl Variant {
@@ -106,30 +116,34 @@ impl Variant {
 
     fn compile_in(&self, signature: &Signature, debug_lines: bool, main: Main) -> Result<Compiled, Error> {
         let tables = table::bindings(&self.tables);
+        let id = self.id();
+        let target =
+            Target { id: &id, signature, defines: &self.defines, tables: &tables, main, debug_lines };
         let mut spirv = match &self.text {
             Text::Function(text) => self.compile_function(text, signature, &tables, debug_lines, main)?,
-            Text::Own(shader) => shader.compile(&Target {
-                id: &self.id(),
-                signature,
-                defines: &self.defines,
-                tables: &tables,
-                main,
-                debug_lines,
-            })?,
+            Text::Own(shader) => shader.compile(&target)?,
         };
         let broken = |message| Error::Reflection { id: self.id(), message };
         if self.precise {
             spirv = reflect::forbid_contraction(&spirv).map_err(broken)?;
         }
         let facts = reflect::facts(&spirv).map_err(broken)?;
-        let kernel = Kernel {
+        let kernel = |spirv, traps| Kernel {
             id: self.id(),
             spirv,
             inputs: signature.input_columns().len(),
             outputs: signature.output_columns().len(),
-            tables,
+            tables: tables.clone(),
+            traps,
         };
-        Ok(Compiled { kernel, facts })
+        let watched = match &self.text {
+            Text::Own(shader) if main == Main::Evaluate => {
+                let (words, traps) = shader.watched(&spirv, &target, self.precise)?;
+                (!traps.is_empty()).then(|| kernel(words, traps))
+            }
+            _ => None,
+        };
+        Ok(Compiled { kernel: kernel(spirv, Vec::new()), watched, facts })
     }
 
     fn compile_function(

@@ -99,7 +99,7 @@ impl Evaluator {
         let signature = problem.signature();
         let mut programs = Vec::new();
         for variant in variants {
-            let kernel = variant.compile(&signature, false)?.kernel;
+            let kernel = variant.compile(&signature, false)?.into_safe();
             programs.push((variant.name.clone(), machine.device.program(&kernel)?));
         }
         Ok(Evaluator { machine, programs })

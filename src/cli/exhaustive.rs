@@ -227,7 +227,7 @@ fn exhaust<D: Device<Program = crate::device::vulkan::Program>>(
     // The time to go is told from what this process does.
     bar.reset_eta();
     let shown = Shown { ahead, bar: &bar };
-    let audited = job::exhaust(device, &family.programs, sweep, journal, &shown, stop)
+    let audited = job::exhaust(device, &family.audited, sweep, journal, &shown, stop)
         .map_err(|error| anyhow!(error))?;
     bar.finish_and_clear();
     for (summary, place) in audited.summaries.iter().zip(&family.places) {

@@ -43,11 +43,11 @@ pub(super) struct Arguments {
     out: Option<PathBuf>,
     #[command(flatten)]
     device: DeviceArguments,
-    #[command(flatten)]
-    shaders: ShaderArguments,
     /// Everything as JSON
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    shaders: ShaderArguments,
 }
 
 /// Variants that were right on the configuration, of which one must stay right.
@@ -173,7 +173,7 @@ impl<'a> Shrinker<'a> {
     ) -> Result<Self> {
         let problem = start.problem;
         let program = replay::program(&start.origin, catalog, &machine.device, problem, &start.variant)?;
-        let (program, _) = program.map_err(|why| anyhow!(why))?;
+        let program = program.map_err(|why| anyhow!(why))?;
         Ok(Shrinker { start, problem, catalog, machine, stop, program, witnesses: Vec::new() })
     }
 
@@ -194,7 +194,7 @@ impl<'a> Shrinker<'a> {
                 break;
             }
             let program = replay::program(origin, self.catalog, &self.machine.device, *problem, &other.name)?;
-            if let Ok((program, _)) = program
+            if let Ok(program) = program
                 && self.evaluate(&program, inputs)?.iter().all(|answer| answer.verdict == Verdict::Ok)
             {
                 self.witnesses.push(program);

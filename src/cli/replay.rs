@@ -14,7 +14,7 @@ use super::shader::ShaderArguments;
 use super::{run, selection};
 use crate::case::replay::Now;
 use crate::case::{self, Answer, Origin, Replay, Story, amber, glsl, origin};
-use crate::catalog::{Catalog, Kernel};
+use crate::catalog::Catalog;
 use crate::device::{Device, Error, vulkan::VulkanDevice};
 use crate::family::Problem;
 use crate::record::RecordedFailure;
@@ -50,11 +50,11 @@ pub(super) struct Arguments {
     glsl: Option<PathBuf>,
     #[command(flatten)]
     device: DeviceArguments,
-    #[command(flatten)]
-    shaders: ShaderArguments,
     /// Everything as JSON
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    shaders: ShaderArguments,
 }
 
 pub(super) fn replay(arguments: &Arguments, stop: &AtomicBool) -> Result<()> {
@@ -84,7 +84,7 @@ pub(super) fn program(
     device: &VulkanDevice,
     problem: &dyn Problem,
     variant: &str,
-) -> Result<Result<(<VulkanDevice as Device>::Program, Kernel), String>> {
+) -> Result<Result<<VulkanDevice as Device>::Program, String>> {
     let module = match origin.kernel(catalog, problem, variant) {
         Ok(module) => module,
         Err(lost) => return Ok(Err(lost.to_string())),
@@ -92,8 +92,8 @@ pub(super) fn program(
     if let Some(note) = module.note {
         eprintln!("note: {note}");
     }
-    match device.program(&module.kernel) {
-        Ok(program) => Ok(Ok((program, module.kernel))),
+    match device.program(&module.safe) {
+        Ok(program) => Ok(Ok(program)),
         Err(error @ (Error::NotSupported { .. } | Error::InvalidKernel { .. })) => Ok(Err(error.to_string())),
         Err(error) => Err(error.into()),
     }
@@ -123,7 +123,7 @@ fn all(arguments: &Arguments, origin: &Origin, catalog: &Catalog, stop: &AtomicB
         let places: Vec<usize> = (0..chosen.len()).filter(|place| chosen[*place].1.id() == *id).collect();
         let first = chosen[places[0]].1;
         match program(origin, catalog, &machine.device, first.problem, &first.variant)? {
-            Ok((program, _)) => {
+            Ok(program) => {
                 let inputs: Vec<f32> =
                     places.iter().flat_map(|place| chosen[*place].1.failure.inputs.iter().copied()).collect();
                 let answers = case::evaluate(&machine.device, &program, first.problem, &inputs)?;
@@ -220,7 +220,7 @@ fn one(arguments: &Arguments, origin: &Origin, catalog: &Catalog, number: usize)
     let mut answers: Vec<(String, Result<Answer, String>)> = Vec::new();
     for name in names {
         let answer = match program(origin, catalog, &machine.device, problem, &name)? {
-            Ok((program, _)) => {
+            Ok(program) => {
                 let mut answers =
                     case::evaluate(&machine.device, &program, problem, &recorded.failure.inputs)?;
                 answers.pop().ok_or_else(|| "the device gave no answer".to_owned())

@@ -193,6 +193,8 @@ pub(super) struct Prepared {
     pub(super) selected: Selected,
     /// Programs, each with its variant's place in the record.
     pub(super) programs: Vec<<VulkanDevice as Device>::Program>,
+    /// The same for audits, where some watch their indices.
+    pub(super) audited: Vec<<VulkanDevice as Device>::Program>,
     pub(super) places: Vec<usize>,
     /// Names and modules of shaders that are not built in.
     modules: Vec<(String, Vec<u32>)>,
@@ -338,11 +340,13 @@ pub(super) fn program() -> record::Program {
 pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
     let signature = selected.problem.signature();
     let mut record = record::family(selected.problem);
-    let (mut programs, mut places, mut modules) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut programs, mut audited) = (Vec::new(), Vec::new());
+    let (mut places, mut modules) = (Vec::new(), Vec::new());
     for variant in &selected.variants {
-        let Compiled { kernel, facts } = variant.compile(&signature, false)?;
+        let Compiled { kernel, watched, facts } = variant.compile(&signature, false)?;
         let skipped = match device.program(&kernel) {
             Ok(program) => {
+                audited.push(watched.map(|kernel| device.program(&kernel)).transpose()?);
                 programs.push(program);
                 places.push(record.variants.len());
                 None
@@ -368,7 +372,9 @@ pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepa
             results: Vec::new(),
         });
     }
-    Ok(Prepared { record, selected, programs, places, modules })
+    let audited =
+        programs.iter().cloned().zip(audited).map(|(plain, watched)| watched.unwrap_or(plain)).collect();
+    Ok(Prepared { record, selected, programs, audited, places, modules })
 }
 
 /// What is to be done on a scenario.
@@ -413,7 +419,7 @@ fn measure(
     if work.audit {
         let total = arguments.configurations * family.programs.len() as u64;
         let bar = bar(total, &format!("audit {label}"), "{human_pos} of {human_len}  {elapsed}, {eta} to go");
-        let audited = audit::audit(device, &family.programs, &plan, &|count| bar.inc(count), stop)?;
+        let audited = audit::audit(device, &family.audited, &plan, &|count| bar.inc(count), stop)?;
         bar.finish_and_clear();
         oracle = Some(audited.oracle.into());
         digest = Some(format!("{:016x}", audited.inputs));

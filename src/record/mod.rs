@@ -17,7 +17,7 @@ use crate::audit::{Failure, Fingerprint};
 pub use bits::Bits;
 pub use failures::write as write_failures;
 pub use folder::{Folder, Recorded, default_path, module_path, read};
-pub use number::{hex_f32, parse_f32};
+pub use number::{decimal_f32, hex_f32, parse_f32};
 pub use recall::{RecordedFailure, failures};
 pub use schema::{
     Audit, Bin, Buckets, Distribution, Extremes, Family, Host, Landmark, Oracle, Output, OutputAudit,

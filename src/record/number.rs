@@ -16,6 +16,16 @@ pub fn parse_f32(text: &str) -> Option<f32> {
     Some(if negative { -value } else { value })
 }
 
+/// The shortest decimal that [`parse_f32`] reads back to the same bits: `0.25`, `1.1e-7`, `NaN`.
+pub fn decimal_f32(value: f32) -> String {
+    let size = value.abs();
+    if size == 0.0 || (1e-3..1e6).contains(&size) || !size.is_finite() {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
 /// The exact value as a hexadecimal float that [`parse_f32`] reads: `0x1.8p-10`, `0x0.000002p-126`, `nan`, `-inf`.
 pub fn hex_f32(value: f32) -> String {
     let sign = if value.is_sign_negative() { "-" } else { "" };
@@ -139,8 +149,10 @@ mod tests {
         #[test]
         fn what_is_written_is_read(bits in any::<u32>()) {
             let value = f32::from_bits(bits);
-            let read = parse_f32(&hex_f32(value)).unwrap();
-            prop_assert!(read.to_bits() == bits || (read.is_nan() && value.is_nan()), "{}", hex_f32(value));
+            for text in [hex_f32(value), decimal_f32(value)] {
+                let read = parse_f32(&text).unwrap();
+                prop_assert!(read.to_bits() == bits || (read.is_nan() && value.is_nan()), "{}", text);
+            }
         }
 
         /// The rounding of f64 to f32 by the processor is the independent arithmetic here.

@@ -5,9 +5,9 @@ use std::fmt::Write;
 use comfy_table::{Cell, Color};
 
 use super::numbers::short;
-use super::replay::decimal;
 use super::table;
 use crate::case::Shrunk;
+use crate::record::decimal_f32;
 
 /// Inputs and outputs side by side, and what could not be simplified.
 pub fn shrunk(shrunk: &Shrunk, colour: bool) -> String {
@@ -26,10 +26,10 @@ pub fn shrunk(shrunk: &Shrunk, colour: bool) -> String {
     let header = ["input", "before", "after", "hexadecimal", "bits before", "bits after", "why not simpler"];
     let mut table = table::table(&header, colour);
     for ((before, after), kept) in before.inputs.iter().zip(&after.inputs).zip(&shrunk.kept) {
-        let now = Cell::new(decimal(after.value));
+        let now = Cell::new(decimal_f32(after.value));
         table.add_row(vec![
             Cell::new(&before.column),
-            Cell::new(decimal(before.value)),
+            Cell::new(decimal_f32(before.value)),
             if before.bits == after.bits { now } else { now.fg(Color::Green) },
             Cell::new(&after.hex),
             Cell::new(&before.bits),
@@ -45,9 +45,9 @@ pub fn shrunk(shrunk: &Shrunk, colour: bool) -> String {
         table.add_row(vec![
             was.column.clone(),
             format!("{:.9e}", before.truth[row]),
-            decimal(was.value),
+            decimal_f32(was.value),
             format!("{:.9e}", after.truth[row]),
-            decimal(is.value),
+            decimal_f32(is.value),
             was.bits.clone(),
             is.bits.clone(),
         ]);

@@ -9,11 +9,11 @@ use super::items::Outline;
 use super::neutral::{Missing, Neutral, What, neutral};
 use super::tokens::{Kind, tokens};
 use super::wrapper::{Callee, Section, WRAPPER, samplers, wrapper};
-use super::{Content, Shader, link};
+use super::{Content, Shader, bounds, link};
 use crate::catalog::generate::{Main, glsl, hlsl, wgsl};
 use crate::catalog::glslang::{self, FrontEnd, Source};
 use crate::catalog::kernel::TableBinding;
-use crate::catalog::{Define, Error, GENERATED, Language, Signature, locate, naga, table};
+use crate::catalog::{Define, Error, GENERATED, Language, Signature, locate, naga, reflect, table};
 
 /// What a shader is compiled as.
 pub(in crate::catalog) struct Target<'a> {
@@ -36,6 +36,33 @@ impl Shader {
             (Content::Text(text), Language::Wgsl) => self.compile_wgsl(text, target),
             (Content::Text(text), _) => self.compile_with_glslang(text, target),
         }
+    }
+
+    /// The module `words` that this shader compiled to with every index watched, and the places where it may leave an
+    /// array; none if there is nothing to watch.
+    pub(in crate::catalog) fn watched(
+        &self,
+        words: &[u32],
+        target: &Target<'_>,
+        precise: bool,
+    ) -> Result<(Vec<u32>, Vec<String>), Error> {
+        let watch = |words: &[u32]| bounds::watch(words).map_err(|message| self.fail(message));
+        let (plain, places) = watch(words)?;
+        if places.is_empty() || target.debug_lines {
+            return Ok((plain, places));
+        }
+        // Once more, with the lines.
+        let mut words = self.compile(&Target { debug_lines: true, ..*target })?;
+        if precise {
+            words = reflect::forbid_contraction(&words).map_err(|message| self.fail(message))?;
+        }
+        let (words, mut places) = watch(&words)?;
+        for place in &mut places {
+            if place.is_empty() {
+                place.clone_from(&self.file);
+            }
+        }
+        Ok((words, places))
     }
 
     pub(in crate::catalog) fn language(&self) -> Language {
@@ -263,8 +290,7 @@ impl Shader {
             let (file, line) = place_in(&sections, &own, mistake.line);
             self.mistake(&file, line, &mistake.message, target, Some(&outline))
         })?;
-        crate::catalog::reflect::rename_entry_point(&words, wgsl::ENTRY, "main")
-            .map_err(|message| self.fail(message))
+        reflect::rename_entry_point(&words, wgsl::ENTRY, "main").map_err(|message| self.fail(message))
     }
 
     fn link(&self, words: &[u32], target: &Target<'_>) -> Result<Vec<u32>, Error> {
@@ -301,9 +327,15 @@ impl Shader {
 
     /// The first error of glslang's log.
     fn told(&self, log: &str, target: &Target<'_>, outline: Option<&Outline<'_>>) -> Error {
-        let mut errors = log.lines().filter_map(|line| line.strip_prefix("ERROR: "));
-        let first = errors.next().unwrap_or(log).trim();
-        let (file, line, message) = locate(first).unwrap_or((self.file.clone(), 0, first));
+        let mut lines = log.lines().skip_while(|line| !line.starts_with("ERROR: "));
+        let first = lines.next().and_then(|line| line.strip_prefix("ERROR: ")).unwrap_or(log).trim();
+        let Some((file, line, message)) = locate(first) else {
+            // The linker's: which functions, is told on the lines that follow.
+            let rest: Vec<&str> =
+                lines.take_while(|line| !line.starts_with("ERROR: ")).map(str::trim).collect();
+            let message = first.rsplit_once("stage: ").map_or(first, |(_, message)| message);
+            return self.fail(format!("{message} {}", rest.join(" ")).trim().to_owned());
+        };
         self.mistake(&file, line, message, target, outline)
     }
 

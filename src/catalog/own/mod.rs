@@ -4,6 +4,7 @@
 //! other. Reading and adapting runs nothing: texts are put together and compiled.
 
 mod adapter;
+mod bounds;
 pub(super) mod compose;
 mod edits;
 mod items;
