@@ -71,7 +71,8 @@ fn shorter(value: f32) -> Vec<f32> {
     for bits in 1..24 {
         let step = 1u64 << (53 - bits);
         let below = wide.to_bits() & !(step - 1);
-        shorter.extend([below, below + step].map(|bits| f64::from_bits(bits) as f32));
+        // Of a number as short as this, its neighbours.
+        shorter.extend([below - step, below, below + step].map(|bits| f64::from_bits(bits) as f32));
     }
     shorter.extend([wide.trunc(), wide.round()].map(|value| value as f32));
     // Decimals are read from text, so that they are the nearest f32 to what is written.
