@@ -16,7 +16,7 @@
 //! Everything on that line is a pure function of (family, scenario, seed, index range, device), works on chunks of at
 //! most 2^20 configurations, and merges by integer addition and max.
 //!
-//! Who may use whom: `cli` -> `report` -> `decide`, `case` -> `record` -> `bench`, `job` -> `audit` -> `device`,
+//! Who may use whom: `cli` -> `report` -> `decide`, `case` -> `record` -> `bench`, `job`, `hunt` -> `audit` -> `device`,
 //! `family` -> `catalog` -> `sample` -> `numeric`; `cli` -> `fit` -> `sample`; `cli`, `report` -> `probe` -> `device`,
 //! `catalog`, `sample`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
 
@@ -29,6 +29,7 @@ pub mod decide;
 pub mod device;
 pub mod family;
 pub mod fit;
+pub mod hunt;
 pub mod job;
 pub mod numeric;
 pub mod probe;

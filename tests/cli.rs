@@ -422,16 +422,71 @@ fn a_builtin_s_table_says_whether_it_keeps_the_specification() {
 
 #[test]
 fn help_says_what_each_verb_is_for() {
-    for verb in ["devices", "list", "run", "audit", "bench", "eval", "replay", "minimize"] {
+    for verb in ["devices", "list", "run", "audit", "bench", "eval", "hunt", "replay", "minimize", "new"] {
         let help = succeeds(rootq().args([verb, "--help"]));
         assert!(help.contains("Usage: rootq") && help.lines().count() > 5, "{help}");
     }
     let list: Value = serde_json::from_str(&succeeds(rootq().args(["list", "--json"]))).unwrap();
-    assert!(list[0]["variants"].as_array().unwrap().iter().all(|variant| variant["source"].is_string()));
+    assert_eq!(list["schema"], 1);
+    let first = &list["families"][0];
+    assert!(first["variants"].as_array().unwrap().iter().all(|variant| variant["source"].is_string()));
     assert!(
         succeeds(rootq().args(["list", "ellipse_axes"]))
             .contains("EllipseAxes ellipse_axes(vec3 v1, vec3 v2)")
     );
+}
+
+/// What `new` writes runs as it is, stays as it is, and is named in every wrong call.
+#[test]
+fn a_new_shader_runs_at_once() {
+    let folder = tempdir().unwrap();
+    let new = |arguments: &[&str]| {
+        let mut command = rootq();
+        command.current_dir(folder.path()).arg("new").args(arguments);
+        command
+    };
+    for (arguments, file) in [
+        (&["ellipse_axes/mine"][..], "mine.comp"),
+        (&["ellipse_axes/mine", "--language", "hlsl"], "mine.hlsl"),
+        (&["ellipse_axes/mine", "--output", "other.wgsl"], "other.wgsl"),
+    ] {
+        assert_eq!(succeeds(&mut new(arguments)), "");
+        let path = folder.path().join(file);
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(text.contains(&format!("rootq run --shader {file} --family ellipse_axes")), "{text}");
+        is_refused(&mut new(arguments), "is there already");
+        fs::write(&path, "mine").unwrap();
+        succeeds(new(arguments).arg("--force"));
+        assert_eq!(fs::read_to_string(&path).unwrap(), text);
+
+        let inputs = table(&folder, TABLE);
+        let mut eval = rootq();
+        eval.args(["eval", "ellipse_axes", "--shader"]).arg(&path).arg("--inputs").arg(inputs);
+        let evaluated = succeeds(&mut eval);
+        let mut csv = csv::Reader::from_reader(evaluated.as_bytes());
+        let header = csv.headers().unwrap().clone();
+        let own: Vec<usize> = (0..header.len()).filter(|at| header[*at].starts_with("mine.")).collect();
+        assert_eq!(own.len(), 8, "{header:?}");
+        for line in csv.records().map(Result::unwrap) {
+            assert!(own.iter().all(|at| line[*at].parse::<f32>() == Ok(0.0)), "{line:?}");
+        }
+    }
+    let left = entries(folder.path()).len();
+    for (arguments, expected) in [
+        (&["ellipse_axes"][..], "'ellipse_axes' is not FAMILY/VARIANT"),
+        (&["elipse_axes/mine"], "did you mean 'ellipse_axes'?"),
+        (&["ellipse_axes/Mine"], "must be lower-case"),
+        (&["ellipse_axes/cross"], "is built in already"),
+        (&["ellipse_axes/x", "--output", "x.txt"], "is of no language"),
+        (&["ellipse_axes/x", "--output", "x.wgsl", "--language", "glsl"], "--language says GLSL"),
+        (&["ellipse_axes/x", "--output", "no/x.comp"], "cannot write no/x.comp"),
+        (&["ellipse_axes/x", "--language", "metal"], "invalid value 'metal'"),
+    ] {
+        is_refused(&mut new(arguments), expected);
+    }
+    assert_eq!(entries(folder.path()).len(), left);
+    let text = succeeds(&mut new(&["ltc_line/mine", "--output", "-"]));
+    assert!(text.starts_with("/*---") && text.contains("float ltc_line("), "{text}");
 }
 
 #[cfg(unix)]

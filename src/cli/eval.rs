@@ -1,13 +1,10 @@
-//! `rootq eval`: the user's own configurations, CSV to CSV.
+//! `rootq eval`: the user's own configurations, CSV or Parquet in and out.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Read};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use clap::Args;
-use tempfile::NamedTempFile;
 
 use super::draft::{deliver, draft, is_dash};
 use super::machine::{DeviceArguments, Machine};
@@ -19,19 +16,22 @@ use crate::device::vulkan::VulkanDevice;
 use crate::device::{Device, Outputs};
 use crate::family::Problem;
 use crate::record::configurations::Reader;
+use crate::record::evaluations::{Batch, Writer};
 
 /// Options of `rootq eval`.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     rootq eval ellipse_axes --inputs in.csv --output out.csv\n  \
     rootq eval ellipse_axes --inputs - --oracle-only < in.csv\n  \
+    rootq eval ellipse_axes --inputs in.parquet --output out.parquet\n  \
+    rootq eval ellipse_axes --inputs run/failures.parquet --device 1    a run's failures, elsewhere\n  \
     rootq eval ellipse_axes --inputs in.csv --variant naive --variant cross --device llvmpipe\n  \
     rootq eval ltc_disk --inputs in.csv --shader old.comp --shader new.comp")]
 pub(super) struct Arguments {
     /// Family whose columns the table has
     family: String,
-    /// CSV to read; '-' is standard input
-    #[arg(long, value_name = "IN.csv")]
+    /// CSV or Parquet to read; '-' is standard input, always CSV
+    #[arg(long, value_name = "IN")]
     inputs: PathBuf,
     /// Variant to evaluate; may be given again [default: all of the family]
     #[arg(long, value_name = "V", conflicts_with = "oracle_only")]
@@ -39,8 +39,8 @@ pub(super) struct Arguments {
     /// Only the oracle; needs no device
     #[arg(long)]
     oracle_only: bool,
-    /// CSV to write; '-' is standard output
-    #[arg(long, value_name = "OUT.csv", default_value = "-")]
+    /// CSV to write, or Parquet if it is named so; '-' is standard output, always CSV
+    #[arg(long, value_name = "OUT", default_value = "-")]
     output: PathBuf,
     #[command(flatten)]
     device: DeviceArguments,
@@ -69,18 +69,19 @@ pub(super) fn eval(arguments: &Arguments, stop: &AtomicBool) -> Result<()> {
         }
     }
     let signature = problem.signature();
-    let (source, name): (Box<dyn Read>, String) = if is_dash(&arguments.inputs) {
-        (Box::new(io::stdin().lock()), "standard input".to_owned())
+    let columns = signature.input_columns();
+    let reader = if is_dash(&arguments.inputs) {
+        Reader::standard_input(columns)?
     } else {
-        let name = arguments.inputs.display().to_string();
-        (Box::new(File::open(&arguments.inputs).with_context(|| format!("cannot read {name}"))?), name)
+        Reader::open(&arguments.inputs, problem.name(), columns)?
     };
-    let reader = Reader::new(source, &name, signature.input_columns())?;
     // Written aside: a mistake in the last line must leave nothing behind.
     let draft = draft(&arguments.output)?;
+    let names: Vec<String> = variants.iter().map(|variant| variant.name.clone()).collect();
+    let writer = Writer::new(draft.reopen()?, &arguments.output, &names, &signature.output_columns())?;
     let evaluator =
         if variants.is_empty() { None } else { Some(Evaluator::new(arguments, problem, &variants)?) };
-    write_all(&draft, reader, problem, evaluator.as_ref(), stop)?;
+    write_all(writer, reader, problem, evaluator.as_ref(), stop)?;
     if let Some(evaluator) = &evaluator {
         evaluator.machine.check_validation()?;
     }
@@ -106,22 +107,15 @@ impl Evaluator {
     }
 }
 
-fn write_all<R: Read>(
-    draft: &NamedTempFile,
-    mut reader: Reader<R>,
+fn write_all(
+    mut writer: Writer,
+    mut reader: Reader,
     problem: &dyn Problem,
     evaluator: Option<&Evaluator>,
     stop: &AtomicBool,
 ) -> Result<()> {
-    let columns = problem.signature().output_columns();
+    let columns = problem.signature().output_columns().len();
     let width = problem.signature().input_columns().len();
-    let mut csv = csv::Writer::from_writer(BufWriter::new(draft.as_file()));
-    let programs = evaluator.map_or(&[][..], |evaluator| &evaluator.programs);
-    let sources = std::iter::once("oracle").chain(programs.iter().map(|(name, _)| name.as_str()));
-    csv.write_record(
-        sources.flat_map(|source| columns.iter().map(move |column| format!("{source}.{column}"))),
-    )?;
-
     let mut first = 0;
     loop {
         if stop.load(Ordering::Relaxed) {
@@ -133,25 +127,20 @@ fn write_all<R: Read>(
         }
         let chunk = Chunk::of_inputs(problem, first, inputs);
         first += chunk.rows() as u64;
-        let mut outputs = Vec::new();
+        let mut evaluated = Vec::new();
         if let Some(Evaluator { machine, programs }) = evaluator {
             let inputs = machine.device.upload(chunk.inputs(), width)?;
             for (_, program) in programs {
-                outputs.push(machine.device.wait(machine.device.submit(program, &inputs)?)?);
+                evaluated.push(machine.device.wait(machine.device.submit(program, &inputs)?)?);
             }
         }
-        for row in 0..chunk.rows() {
-            for value in chunk.truth(row) {
-                csv.write_field(format!("{value:.16e}"))?;
-            }
-            for outputs in &outputs {
-                for column in 0..columns.len() {
-                    csv.write_field(format!("{:.8e}", outputs.column(column)[row]))?;
-                }
-            }
-            csv.write_record(None::<&[u8]>)?;
-        }
+        let truth = |column| (0..chunk.rows()).map(|row| chunk.truth(row)[column]).collect();
+        let outputs = |outputs| (0..columns).map(move |column| Outputs::column(outputs, column));
+        writer.write(&Batch {
+            truth: (0..columns).map(truth).collect(),
+            outputs: evaluated.iter().flat_map(outputs).collect(),
+        })?;
     }
-    csv.flush()?;
+    writer.finish()?;
     Ok(())
 }

@@ -237,6 +237,7 @@ fn exhaust<D: Device<Program = crate::device::vulkan::Program>>(
             audit: Some(record::audit(problem, summary)),
             timing: None,
             arithmetic: Vec::new(),
+            hunt: None,
         });
         evidence.push(Evidence {
             family: problem.name(),

@@ -1,6 +1,5 @@
 //! `rootq minimize`: a failing configuration that a person can read.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -35,8 +34,8 @@ pub(super) struct Arguments {
     /// Failure to minimize, by its number in 'rootq replay RUN'
     #[arg(long, value_name = "K")]
     failure: Option<usize>,
-    /// CSV with one configuration; '-' is standard input
-    #[arg(long, value_name = "IN.csv")]
+    /// CSV or Parquet with one configuration; '-' is CSV on standard input
+    #[arg(long, value_name = "IN")]
     inputs: Option<PathBuf>,
     /// Folder, or file that ends in .parquet, for the minimized failure, which 'rootq replay' reads
     #[arg(long, value_name = "OUT")]
@@ -131,13 +130,12 @@ fn start(arguments: &Arguments, catalog: &Catalog) -> Result<Start> {
     let path = arguments.inputs.as_deref().unwrap_or(Path::new("-"));
     let columns = problem.signature().input_columns();
     let width = columns.len();
-    let (source, name): (Box<dyn std::io::Read>, String) = if is_dash(path) {
-        (Box::new(std::io::stdin().lock()), "standard input".to_owned())
+    let (mut reader, name) = if is_dash(path) {
+        (Reader::standard_input(columns)?, "standard input".to_owned())
     } else {
-        let name = path.display().to_string();
-        (Box::new(File::open(path).with_context(|| format!("cannot read {name}"))?), name)
+        (Reader::open(path, problem.name(), columns)?, path.display().to_string())
     };
-    let inputs = Reader::new(source, &name, columns)?.batch(2)?;
+    let inputs = reader.batch(2)?;
     if inputs.len() != width {
         let there = if inputs.is_empty() { "none" } else { "several" };
         bail!("{name} must hold one configuration, and has {there}");

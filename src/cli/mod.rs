@@ -10,9 +10,11 @@ mod draft;
 mod eval;
 mod exhaustive;
 mod fit;
+mod hunt;
 mod list;
 mod machine;
 mod minimize;
+mod new;
 mod pick;
 mod replay;
 mod run;
@@ -82,13 +84,25 @@ enum Verb {
     /// inside which no variant ranks before another. The table shows shares of what the device did at best in the same
     /// run. Only a family's first scenario is timed, unless --scenario names others.
     Bench(run::BenchArguments),
-    /// Evaluate your own configurations, by oracle and variants, CSV to CSV
+    /// Evaluate your own configurations, by oracle and variants, from CSV or Parquet to either
     ///
-    /// The input's header names the family's columns in any order ('rootq list FAMILY' shows them); values are decimal
-    /// or hexadecimal floats (0x1.8p-3), rounded once to f32. The output has one line an input line, in the same order,
-    /// with the columns oracle.<column> (17 digits) and <variant>.<column> (9 digits), which read back to the same
-    /// bits. A mistake anywhere in the input leaves no output at all.
+    /// The input's columns are the family's, in any order ('rootq list FAMILY' shows them). CSV: a header, and decimal or
+    /// hexadecimal floats (0x1.8p-3), rounded once to f32. Parquet, by name or content: float32 or float64, rounded
+    /// likewise; uncompressed, snappy, gzip or lz4. A run's failures.parquet is an input, too: the rows of this family,
+    /// without what else it holds. Tables of any length need little memory. The output has one row an input row, in the
+    /// same order, with the columns oracle.<column> (f64; 17 digits) and <variant>.<column> (f32; 9 digits), which read
+    /// back to the same bits. A mistake anywhere in the input leaves no output at all.
     Eval(eval::Arguments),
+    /// Search for the worst configuration of each scenario
+    ///
+    /// Searches among all configurations that a scenario can draw, however rarely, for the one that a variant does worst:
+    /// a global optimiser (CMA-ES with restarts) over the random words behind a configuration, the judged error as its
+    /// objective, whole populations on the device at a time. Only errors that the variant is to blame for count: a failure
+    /// above any error that rounding the inputs explains. As many random configurations are judged beside it, so that the
+    /// table says what the search was worth. The worst of each failing verdict is kept with its exact inputs: in
+    /// failures.parquet of the run folder (index 0, for it is in no random stream), which other verbs read as they do a
+    /// run's. Interrupted, the hunt ends with what it found.
+    Hunt(hunt::Arguments),
     /// Evaluate recorded failures again, here or on another device; export one for a bug report
     ///
     /// RUN is a run's folder or a failures.parquet. Every failure's inputs are evaluated again, bit for bit, and the list says
@@ -105,6 +119,12 @@ enum Verb {
     /// one of them still is. The same failure on the same device always ends in the same bits. Shows both side by side, and
     /// for each input what became of simpler values.
     Minimize(minimize::Arguments),
+    /// Write a shader to begin with
+    ///
+    /// A file with the family's function, to be filled in: what it computes, parameters and results with their columns, how
+    /// each result's error is measured, the scenarios it will meet, and what to run next. It compiles, and returns zeros. A
+    /// file that is there already stays as it is.
+    New(new::Arguments),
     /// What changed between two recorded runs, row by row; with --gate, whether that is allowed
     ///
     /// Two runs of another driver, device, version or day: for each variant and scenario, whether accuracy and time (apart
@@ -153,6 +173,8 @@ pub fn main() -> ExitCode {
         Verb::Eval(arguments) => eval::eval(&arguments, &stop).map(Outcome::from),
         Verb::Replay(arguments) => replay::replay(&arguments, &stop).map(Outcome::from),
         Verb::Minimize(arguments) => minimize::minimize(&arguments, &stop).map(Outcome::from),
+        Verb::New(arguments) => new::new(&arguments).map(Outcome::from),
+        Verb::Hunt(arguments) => hunt::hunt(&arguments, &stop),
         Verb::Compare(arguments) => compare::compare(&arguments),
         Verb::Pick(arguments) => pick::pick(&arguments),
         Verb::Fit(arguments) => fit::fit(&arguments, &stop).map(Outcome::from),
@@ -160,6 +182,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
         Ok(Outcome::Violated) => VIOLATED.into(),
+        Ok(Outcome::Interrupted) => INTERRUPTED.into(),
         Err(error) if stop.load(Ordering::Relaxed) => {
             match error.downcast_ref::<exhaustive::Kept>() {
                 Some(kept) => eprintln!("rootq: interrupted; {kept}"),
@@ -182,6 +205,8 @@ enum Outcome {
     Clean,
     /// A gate's rule is broken, or a claim does not hold.
     Violated,
+    /// Ended early on request, with what it had by then.
+    Interrupted,
 }
 
 impl From<()> for Outcome {

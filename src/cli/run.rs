@@ -15,9 +15,9 @@ use super::shader::ShaderArguments;
 use super::timing::{Depth, Timed, Timer, TimingArguments};
 use crate::audit::{self, MAX_CHUNK, Plan};
 use crate::bench::{Ceilings, Regime};
-use crate::catalog::{self, Catalog, Compiled, Variant};
+use crate::catalog::{self, Compiled, Variant};
 use crate::device::{self, Device, vulkan::VulkanDevice};
-use crate::family::{self, Scenario};
+use crate::family::Scenario;
 use crate::record::{self, Evidence, Folder};
 use crate::report;
 
@@ -272,14 +272,7 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
 
 /// The selected variants; with shaders of the user's own and no other wish, these alone.
 pub(super) fn select(arguments: &Arguments) -> Result<Vec<Selected>> {
-    let mut catalog = Catalog::embedded()?;
-    // A family that is selected by name is the shaders', too.
-    let only = match arguments.select.as_slice() {
-        [only] if family::find(only).is_some() => Some(only.as_str()),
-        _ => None,
-    };
-    let own = arguments.shaders.bring(&mut catalog, only)?;
-    selection::variants(&catalog, &arguments.select, &own)
+    arguments.shaders.select(&arguments.select)
 }
 
 /// What a run found.
@@ -412,6 +405,7 @@ fn measure(
             audit: None,
             timing: None,
             arithmetic: Vec::new(),
+            hunt: None,
         })
         .collect();
     let (mut oracle, mut digest) = (None, None);

@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use anyhow::{Result, anyhow, bail};
 use clap::Args;
 
-use super::selection;
+use super::selection::{self, Selected};
 use crate::catalog::{Catalog, Define, Request, Variant};
+use crate::family;
 
 /// The reference of adapters, in the long help.
 const ADAPTER: &str = "\
@@ -59,6 +60,18 @@ pub(super) struct ShaderArguments {
 }
 
 impl ShaderArguments {
+    /// The built-in variants that match `patterns`, and these shaders.
+    pub(super) fn select(&self, patterns: &[String]) -> Result<Vec<Selected>> {
+        let mut catalog = Catalog::embedded()?;
+        // A family that is selected by name is the shaders', too.
+        let only = match patterns {
+            [only] if family::find(only).is_some() => Some(only.as_str()),
+            _ => None,
+        };
+        let own = self.bring(&mut catalog, only)?;
+        selection::variants(&catalog, patterns, &own)
+    }
+
     /// Adds the shaders to the catalogue and returns their identifiers. `only` is the family of a verb that has one.
     pub(super) fn bring(&self, catalog: &mut Catalog, only: Option<&str>) -> Result<Vec<String>> {
         if self.adapter.len() > 1 && self.adapter.len() != self.shader.len() {

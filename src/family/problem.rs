@@ -121,6 +121,52 @@ pub enum Quantity {
     Builtin,
 }
 
+impl Quantity {
+    /// Its name in records: `solid_angle`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::Magnitude => "magnitude",
+            Quantity::Scalar => "scalar",
+            Quantity::Irradiance => "irradiance",
+            Quantity::VectorIrradiance => "vector_irradiance",
+            Quantity::Coordinate => "coordinate",
+            Quantity::SolidAngle => "solid_angle",
+            Quantity::Vector { .. } => "vector",
+            Quantity::UnitVector { .. } => "unit_vector",
+            Quantity::Property => "property",
+            Quantity::Builtin => "builtin",
+        }
+    }
+
+    /// What its error and its tolerance are.
+    pub fn measure(self) -> &'static str {
+        match self {
+            Quantity::Magnitude => "never negative; relative error",
+            Quantity::Scalar => "signed; relative error",
+            Quantity::Irradiance => "share of the full hemisphere's irradiance, 0..1; absolute error",
+            Quantity::VectorIrradiance => {
+                "vector of irradiances, shares of the hemisphere's; distance of the two"
+            }
+            Quantity::Coordinate => "coordinate in -1..1; absolute error",
+            Quantity::SolidAngle => "steradians, 0..4 pi; relative error",
+            Quantity::Vector { sign_free: false } => "vector; distance of the two over the truth's length",
+            Quantity::Vector { sign_free: true } => {
+                "vector, either sign; distance of the two over the truth's length"
+            }
+            Quantity::UnitVector { sign_free: false } => {
+                "direction of length 1; angle between the two in radians"
+            }
+            Quantity::UnitVector { sign_free: true } => {
+                "axis of length 1, either sign; angle between the two in radians"
+            }
+            Quantity::Property => {
+                "has a property with the inputs and other results; largest residual of what must hold"
+            }
+            Quantity::Builtin => "error over what the Vulkan specification permits",
+        }
+    }
+}
+
 /// What must hold of several results together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {

@@ -2,7 +2,8 @@
 //!
 //! `family`, `variant`, `scenario`, `index`, `verdict`; then, for every column of every family in the file,
 //! `input.<column>` and `output.<column>` (f32, exact bits), `truth.<column>`, `error.<output>` in the output's own
-//! measure and `ulp.<output>` (f64). Columns of other families than the row's are null.
+//! measure and `ulp.<output>` (f64). Columns of other families than the row's are null. The index is the configuration's in
+//! its scenario's stream, but 0 for what a hunt's search found, which is in no stream.
 
 use std::fs::File;
 use std::path::Path;

@@ -1,10 +1,12 @@
-//! What a run leaves behind: a versioned `run.json`, `failures.parquet`, and the folder that holds them; and the CSV
-//! in which users hand over configurations.
+//! What a run leaves behind: a versioned `run.json`, `failures.parquet`, and the folder that holds them; and the tables
+//! in which users hand over configurations and take their evaluations.
 
 mod bits;
 pub mod configurations;
+pub mod evaluations;
 mod failures;
 mod folder;
+mod hunt;
 mod number;
 mod recall;
 mod schema;
@@ -17,6 +19,7 @@ use crate::audit::{Failure, Fingerprint};
 pub use bits::Bits;
 pub use failures::write as write_failures;
 pub use folder::{Folder, Recorded, default_path, module_path, read};
+pub use hunt::{Find, Hunt, hunt};
 pub use number::{decimal_f32, hex_f32, parse_f32};
 pub use recall::{RecordedFailure, failures};
 pub use schema::{
@@ -56,7 +59,7 @@ pub enum Error {
     NoFailures { path: PathBuf },
     #[error("{} is not a run that this rootq reads: {message}", path.display())]
     Unreadable { path: PathBuf, message: String },
-    /// The user's table is at fault; `place` is `FILE` or `FILE:LINE`.
+    /// The user's table is at fault; `place` is `FILE`, `FILE:LINE` or `FILE, row N`.
     #[error("{place}: {message}")]
     Table { place: String, message: String },
 }

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::hunt::Hunt;
 use crate::audit::Verdict;
 use crate::bench::{Ceilings, Ranking, Setting, Timing, rate_interval};
 use crate::{catalog, device};
@@ -57,7 +58,7 @@ pub struct Host {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     pub seed: u64,
-    /// Configurations a scenario.
+    /// Configurations a scenario; of a hunt, its evaluations a scenario, or 0 if time was its limit.
     pub configurations: u64,
     pub chunk: usize,
     pub max_failures: usize,
@@ -167,6 +168,8 @@ pub struct Result {
     /// Times in the arithmetic regime; `timing` is the streaming one.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub arithmetic: Vec<Timing>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub hunt: Option<Hunt>,
 }
 
 impl Result {

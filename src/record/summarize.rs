@@ -3,7 +3,7 @@
 use super::schema;
 use crate::audit::{Extremes, Histogram, OracleSummary, OutputSummary, Specimen, Summary, Verdict};
 use crate::bench::rate_interval;
-use crate::family::{Problem, Quantity};
+use crate::family::Problem;
 
 /// A family's own facts; scenarios and variants are added by whoever runs them.
 pub fn family(problem: &dyn Problem) -> schema::Family {
@@ -15,7 +15,7 @@ pub fn family(problem: &dyn Problem) -> schema::Family {
             .iter()
             .map(|output| schema::Output {
                 name: output.field.name.to_owned(),
-                quantity: quantity(output.quantity).to_owned(),
+                quantity: output.quantity.name().to_owned(),
                 tolerance: output.tolerance,
                 headline: output.headline,
             })
@@ -122,21 +122,6 @@ fn distribution(histogram: &Histogram) -> schema::Distribution {
 fn rate(count: u64, total: u64) -> schema::Rate {
     let (low, high) = rate_interval(count, total);
     schema::Rate { count, rate: if total == 0 { 0.0 } else { count as f64 / total as f64 }, low, high }
-}
-
-fn quantity(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Magnitude => "magnitude",
-        Quantity::Scalar => "scalar",
-        Quantity::Irradiance => "irradiance",
-        Quantity::VectorIrradiance => "vector_irradiance",
-        Quantity::Coordinate => "coordinate",
-        Quantity::SolidAngle => "solid_angle",
-        Quantity::Vector { .. } => "vector",
-        Quantity::UnitVector { .. } => "unit_vector",
-        Quantity::Property => "property",
-        Quantity::Builtin => "builtin",
-    }
 }
 
 impl From<OracleSummary> for schema::Oracle {

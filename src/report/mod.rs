@@ -2,6 +2,7 @@
 
 mod builtin;
 mod compare;
+mod hunt;
 mod numbers;
 mod pick;
 mod probe;
@@ -11,6 +12,7 @@ mod table;
 mod timing;
 
 pub use compare::{Form, compare, github};
+pub use hunt::hunt;
 pub use pick::pick;
 pub use probe::probes;
 pub use replay::{replay, story};

@@ -32,28 +32,44 @@ impl Stream {
         let mut bytes = [0u8; 4 * WORDS];
         for row in 0..count {
             generator.fill_bytes(&mut bytes);
-            visit(row, &mut Draw { bytes: &bytes, used: 0 });
+            visit(row, &mut Draw::of_words(&words(&bytes)));
         }
     }
+}
+
+fn words(bytes: &[u8; 4 * WORDS]) -> [u32; WORDS] {
+    std::array::from_fn(|at| {
+        let word = &bytes[4 * at..];
+        u32::from_le_bytes([word[0], word[1], word[2], word[3]])
+    })
 }
 
 /// The draws of one configuration.
 #[derive(Debug)]
 pub struct Draw<'a> {
-    bytes: &'a [u8; 4 * WORDS],
+    words: &'a [u32; WORDS],
     used: usize,
 }
 
-impl Draw<'_> {
+impl<'a> Draw<'a> {
+    /// The draws that these words make: a configuration is a function of its words, whoever chose them.
+    pub fn of_words(words: &'a [u32; WORDS]) -> Self {
+        Draw { words, used: 0 }
+    }
+
+    /// How many words have been drawn so far.
+    pub fn used(&self) -> usize {
+        self.used
+    }
+
     /// 32 random bits.
     ///
     /// # Panics
     /// When the scenario draws more than [`WORDS`] words.
     pub fn word(&mut self) -> u32 {
-        let start = 4 * self.used;
+        let word = self.words[self.used];
         self.used += 1;
-        let word = &self.bytes[start..start + 4];
-        u32::from_le_bytes([word[0], word[1], word[2], word[3]])
+        word
     }
 
     /// Uniform in the open interval (0, 1), in steps of 2^-32.
@@ -139,6 +155,13 @@ mod tests {
     fn seeds_and_streams_differ() {
         assert_ne!(first_words(7, "a/b", 0, 8), first_words(8, "a/b", 0, 8));
         assert_ne!(first_words(7, "a/b", 0, 8), first_words(7, "a/c", 0, 8));
+    }
+
+    #[test]
+    fn words_given_are_words_drawn() {
+        let words: [u32; WORDS] = std::array::from_fn(|at| 3 + at as u32);
+        let mut draw = Draw::of_words(&words);
+        assert_eq!((draw.word(), draw.unit(), draw.used()), (3, 4.5 / 4_294_967_296.0, 2));
     }
 
     #[test]

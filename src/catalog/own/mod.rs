@@ -179,6 +179,3 @@ fn variant_name(stem: &str) -> String {
         stem.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect();
     if name.is_empty() { "own".to_owned() } else { name }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,11 +1,12 @@
-//! The user's configurations: a CSV with a header of column names in any order.
+//! Configurations as CSV: a header of column names in any order.
 
 use std::io::Read;
 
-use super::{Error, parse_f32};
+use super::Error;
+use crate::record::parse_f32;
 
-/// Reads configurations in batches, so that a table of any length needs little memory.
-pub struct Reader<R> {
+/// Reads line by line.
+pub(super) struct Reader<R> {
     csv: csv::Reader<R>,
     /// As messages name it.
     name: String,
@@ -17,7 +18,7 @@ pub struct Reader<R> {
 
 impl<R: Read> Reader<R> {
     /// Reads the header and matches it with the input columns, each of which must be there once and nothing else.
-    pub fn new(source: R, name: &str, columns: Vec<String>) -> Result<Self, Error> {
+    pub(super) fn new(source: R, name: &str, columns: Vec<String>) -> Result<Self, Error> {
         let fail = |message: String| Error::Table { place: name.to_owned(), message };
         let mut csv = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(source);
         let header = csv.headers().map_err(|error| broken(name, &error))?.clone();
@@ -46,7 +47,7 @@ impl<R: Read> Reader<R> {
     }
 
     /// Up to `rows` configurations, row-major; empty at the end.
-    pub fn batch(&mut self, rows: usize) -> Result<Vec<f32>, Error> {
+    pub(super) fn batch(&mut self, rows: usize) -> Result<Vec<f32>, Error> {
         let mut values = Vec::with_capacity(rows.min(1 << 16) * self.places.len());
         for _ in 0..rows {
             if !self.csv.read_record(&mut self.record).map_err(|error| broken(&self.name, &error))? {
