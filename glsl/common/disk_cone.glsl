@@ -65,6 +65,10 @@ struct DiskCone {
     float slant;      // sqrt(l A B) W3
 };
 
+// The mean direction is measured in this unit: its part along the light's plane may be small beside a height that is at the
+// end of the range itself, and still be all that the horizon asks for.
+const float DISK_FINE = 1099511627776.0;
+
 // From l and the mean direction's part in the light's plane, over l/((h1 + l) (h2 + l)) if its part across is the height over
 // the plane.
 DiskCone disk_cone(DiskFrame f, Confocal k, float l, vec2 plane)
@@ -72,21 +76,23 @@ DiskCone disk_cone(DiskFrame f, Confocal k, float l, vec2 plane)
     float square = (l + k.sum) * l + k.product;
     float inverse_root = inversesqrt(square);
     float inverse = inverse_root * inverse_root;
-    plane *= l * inverse;
-    float side = plane.y * f.slope.x + f.cz * f.slope.y;
-    float up = plane.y * f.slope.y - f.cz * f.slope.x;
+    plane *= l * inverse * DISK_FINE;
+    float across = f.cz * DISK_FINE;
+    float side = plane.y * f.slope.x + across * f.slope.y;
+    float up = plane.y * f.slope.y - across * f.slope.x;
     float level2 = plane.x * plane.x + side * side;
     float inverse_w = 1.0 / (level2 + up * up);
 
     DiskCone cone;
     cone.l = l;
-    cone.sum = max(k.sum - (l * k.gamma + k.product * k.alpha) * inverse, 0.0);
-    cone.product = k.product * k.z / l;
+    float share = k.z / l;
+    cone.sum = (l * k.beta + k.kappa) * inverse + k.sum * share;
+    cone.product = k.product * share;
     cone.volume = f.area * abs(f.cz);
     cone.height2 = up * up * inverse_w;
     cone.level2 = level2 * inverse_w;
-    cone.rise = inverse_root * (up * inverse_w);
-    cone.slant = square * inverse_root * up;
+    cone.rise = inverse_root * (up * inverse_w) * DISK_FINE;
+    cone.slant = square * inverse_root * (up * (1.0 / DISK_FINE));
     return cone;
 }
 
