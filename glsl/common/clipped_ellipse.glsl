@@ -46,7 +46,7 @@ float clipped_log_ratio(float x, float z, float square)
 float clipped_ellipse(DiskCone cone, float szz)
 {
     float l = cone.l;
-    float root = sqrt(szz);
+    float root2 = 2.0 * sqrt(szz);
     float w3 = cone.height2;
     float rest = cone.level2;
     float k = sqrt(max(cone.sum * cone.sum - 4.0 * cone.product, 0.0));
@@ -60,22 +60,22 @@ float clipped_ellipse(DiskCone cone, float szz)
     float w1 = k1 / max(k, DISK_SMALLEST);
     float w2 = rest - w1;
 
-    float sine = 2.0 * root * cone.slant;
+    float sine = root2 * cone.slant;
     float swing = l * (l + cone.sum) * w3 - cone.product * rest;
     float cosine = swing - l * szz;
     float turn = arctangent_upper(abs(sine), cosine);
     turn = sine > 0.0 ? CLIPPED_TURN - turn : turn;
 
-    float z = 2.0 * sqrt(szz * A * (e1 * k1));
+    float z = root2 * sqrt(A * (e1 * k1));
     float x = l * m + k * szz + e1 * (e1 * w1) + e3 * (e3 * w2);
     float first = clipped_log_ratio(x, z, sine * sine + cosine * cosine);
 
-    float y = 2.0 * sqrt(szz * B * (e3 * k2));
+    float y = root2 * sqrt(B * (e3 * k2));
     float c = l * (m + k * w3) + e3 * (m - k2);
     bool narrow = y <= 1.0e-4 * c;
     float second = (narrow ? 1.0 : arctangent_upper(y, c)) / (narrow ? c : max(y, DISK_SMALLEST));
 
-    float scale = 2.0 * cone.volume * root;
+    float scale = cone.volume * root2;
     float dphi = arctangent_upper(scale, swing + l * szz);
     float sum = cone.volume * (cone.rise * turn) + dphi - scale * (w1 * first + w2 * second);
     return clamp(sum * (1.0 / CLIPPED_TURN), 0.0, 1.0);
