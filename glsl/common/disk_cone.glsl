@@ -65,19 +65,16 @@ struct DiskCone {
     float slant;      // sqrt(l A B) W3
 };
 
-// The mean direction is measured in this unit: its part along the light's plane may be small beside a height that is at the
-// end of the range itself, and still be all that the horizon asks for.
-const float DISK_FINE = 1099511627776.0;
-
-// From l and the mean direction's part in the light's plane, over l/((h1 + l) (h2 + l)) if its part across is the height over
-// the plane.
+// From l and the mean direction's part in the light's plane, over 1/((h1 + l) (h2 + l)) if its part across is the height over
+// the plane, over l: its product with the centre is then 1, and it is as long as the light is near.
 DiskCone disk_cone(DiskFrame f, Confocal k, float l, vec2 plane)
 {
     float square = (l + k.sum) * l + k.product;
     float inverse_root = inversesqrt(square);
     float inverse = inverse_root * inverse_root;
-    plane *= l * inverse * DISK_FINE;
-    float across = f.cz * DISK_FINE;
+    float inverse_l = 1.0 / l;
+    plane *= inverse;
+    float across = f.cz * inverse_l;
     float side = plane.y * f.slope.x + across * f.slope.y;
     float up = plane.y * f.slope.y - across * f.slope.x;
     float level2 = plane.x * plane.x + side * side;
@@ -85,14 +82,14 @@ DiskCone disk_cone(DiskFrame f, Confocal k, float l, vec2 plane)
 
     DiskCone cone;
     cone.l = l;
-    float share = k.z / l;
+    float share = k.z * inverse_l;
     cone.sum = (l * k.beta + k.kappa) * inverse + k.sum * share;
     cone.product = k.product * share;
     cone.volume = f.area * abs(f.cz);
     cone.height2 = up * up * inverse_w;
     cone.level2 = level2 * inverse_w;
-    cone.rise = inverse_root * (up * inverse_w) * DISK_FINE;
-    cone.slant = square * inverse_root * (up * (1.0 / DISK_FINE));
+    cone.rise = inverse_root * (up * inverse_w) * inverse_l;
+    cone.slant = square * inverse_root * (up * l);
     return cone;
 }
 

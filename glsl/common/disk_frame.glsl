@@ -68,9 +68,6 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     vec3 area = cross(v1, v2);
     vec3 N = area.x * k0 + area.y * k1 + area.z * k2;
     float volume = dot(kz, vec3(m[0].z, m[1].z, m[2].z)) * dot(area, c);
-    // The heights of C x V1 and C x V2.
-    float up1 = dot(kz, cross(c, v1));
-    float up2 = dot(kz, cross(c, v2));
 
     float far = disk_longest(C);
     float long1 = disk_longest(V1);
@@ -89,8 +86,6 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     N *= cut1;
     N *= cut2;
     volume = volume * scale * cut1 * cut2;
-    up1 = up1 * scale * cut1;
-    up2 = up2 * scale * cut2;
 
     DiskFrame f;
     vec2 up = vec2(V1.z, V2.z);
@@ -113,7 +108,9 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     f.slope = vec2(-N.z, f.b * f.a3) * inverse_n;
     f.c1 = dot(B, C.xy);
     f.c3 = C.z;
-    f.d = (up.y * up1 - up.x * up2) * inverse_b * f.slope.x + f.c3 * f.slope.y;
+    // The height of C x B, by the light before m.
+    float crossed = dot(kz, cross(c, (cut1 * up.y) * v1 - (cut2 * up.x) * v2)) * scale;
+    f.d = crossed * inverse_b * f.slope.x + f.c3 * f.slope.y;
     float height = max(abs(volume) * inverse_n, DISK_TOUCHING);
     f.cz = volume < 0.0 ? -height : height;
     return f;
