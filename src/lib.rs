@@ -15,7 +15,7 @@
 //! most 2^20 configurations, and merges by integer addition and max.
 //!
 //! Who may use whom: `cli` -> `report` -> `decide` -> `record` -> `bench`, `job` -> `audit` -> `device`, `family` ->
-//! `catalog`, `sample` -> `numeric`; `cli` -> `fit` -> `sample`; `cli`, `report` -> `probe` -> `device`, `catalog`,
+//! `catalog` -> `sample` -> `numeric`; `cli` -> `fit` -> `sample`; `cli`, `report` -> `probe` -> `device`, `catalog`,
 //! `sample`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
 
 pub mod audit;

@@ -26,7 +26,14 @@ const SLOW: &str = "float x = i[k];
     o[k] = x + i[k];";
 
 fn kernel(id: &str, body: &str, inputs: usize, outputs: usize) -> Kernel {
-    Kernel { id: id.to_owned(), spirv: glsl::compile(body), inputs, outputs, tables: Vec::new() }
+    Kernel {
+        id: id.to_owned(),
+        spirv: glsl::compile(body),
+        inputs,
+        outputs,
+        tables: Vec::new(),
+        traps: Vec::new(),
+    }
 }
 
 fn arithmetic() -> Kernel {
@@ -129,7 +136,14 @@ fn validation_messages_are_heard() {
     // Twenty bytes of push constants where the layout has sixteen: wrong, and harmless to compile.
     let spirv =
         glsl::compile_with("uint first, count, stride, evaluations, more;", "o[k] = i[k] + float(more);");
-    let kernel = Kernel { id: "test/greedy".to_owned(), spirv, inputs: 1, outputs: 1, tables: Vec::new() };
+    let kernel = Kernel {
+        id: "test/greedy".to_owned(),
+        spirv,
+        inputs: 1,
+        outputs: 1,
+        tables: Vec::new(),
+        traps: Vec::new(),
+    };
     let _program = device.program(&kernel);
     let messages = instance.validation_messages();
     assert!(messages.iter().any(|message| message.contains("VUID")), "{messages:?}");
@@ -292,8 +306,14 @@ fn a_loop_runs_as_often_as_it_is_told() {
                 "uint first, count, stride, evaluations;",
                 "float x = i[k]; for (uint n = 0; n < evaluations; ++n) x += 1.0; o[k] = x;",
             );
-            let kernel =
-                Kernel { id: "test/loop".to_owned(), spirv, inputs: 3, outputs: 1, tables: Vec::new() };
+            let kernel = Kernel {
+                id: "test/loop".to_owned(),
+                spirv,
+                inputs: 3,
+                outputs: 1,
+                tables: Vec::new(),
+                traps: Vec::new(),
+            };
             let once = device.program(&kernel).expect("a program");
             let often = device.repeating(&once, 100).expect("a device that loops");
             let rows: Vec<f32> = (0..3 * 20_000).map(|value| value as f32).collect();
@@ -517,7 +537,14 @@ fn tables_of_four_channels_keep_their_order() {
                 for (int c = 0; c < 4; ++c) { o[c * stride + k] = a[c]; o[(c + 4) * stride + k] = b[c]; }",
             );
             let tables = vec![table("texels", 2, TableForm::Buffer), table("image", 3, TableForm::Image)];
-            let kernel = Kernel { id: "test/tables".to_owned(), spirv, inputs: 2, outputs: 8, tables };
+            let kernel = Kernel {
+                id: "test/tables".to_owned(),
+                spirv,
+                inputs: 2,
+                outputs: 8,
+                tables,
+                traps: Vec::new(),
+            };
             let rows: Vec<f32> =
                 (0..height).flat_map(|y| (0..width).flat_map(move |x| [x as f32, y as f32])).collect();
             let outputs = evaluate(device, &kernel, &rows);

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use super::Error;
 use super::kernel::TableForm;
@@ -27,7 +28,7 @@ pub struct FrontMatter {
 }
 
 /// One `[[variant]]`.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Declaration {
     pub name: String,
@@ -67,42 +68,64 @@ impl std::fmt::Display for Define {
 impl FrontMatter {
     /// Reads the block at the head of `text`; errors name `file` and the line.
     pub fn parse(file: &str, text: &str) -> Result<FrontMatter, Error> {
-        let fail = |line: usize, message: String| Error::FrontMatter { file: file.to_owned(), line, message };
-        let Some(rest) = text.strip_prefix(OPENING) else {
-            return Err(fail(1, format!("front matter must begin the file: '{OPENING}'")));
+        let Some(block) = block(file, text)? else {
+            return Err(fail(file, 1, format!("front matter must begin the file: '{OPENING}'")));
         };
-        let Some(end) = rest.find(CLOSING) else {
-            return Err(fail(1, format!("front matter is not closed by '{CLOSING}'")));
-        };
-        let block = &rest[..end];
-        let parsed: FrontMatter = toml::from_str(block).map_err(|error| {
-            let offset = error.span().map_or(0, |span| span.start);
-            let line = 1 + block[..offset.min(block.len())].matches('\n').count();
-            fail(line, error.message().replace('\n', " "))
-        })?;
-        let line_of = |name: &str| {
-            let quoted = format!("\"{name}\"");
-            1 + block.find(&quoted).map_or(0, |at| block[..at].matches('\n').count())
-        };
+        let parsed: FrontMatter = read(file, block)?;
         if parsed.variants.is_empty() {
-            return Err(fail(1, "at least one [[variant]] is needed".to_owned()));
+            return Err(fail(file, 1, "at least one [[variant]] is needed".to_owned()));
         }
-        for (position, variant) in parsed.variants.iter().enumerate() {
-            let name = &variant.name;
-            if name.is_empty()
-                || !name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_')
-            {
-                return Err(fail(
-                    line_of(name),
-                    format!("variant name '{name}' must be lower-case letters, digits and '_'"),
-                ));
+        check_names(file, &parsed.variants).map_err(|error| match error {
+            // Told on the line of the name.
+            Error::FrontMatter { file, message, .. } => {
+                let name = message.split('\'').nth(1).unwrap_or_default();
+                let at = block.rfind(&format!("\"{name}\"")).unwrap_or(0);
+                Error::FrontMatter { file, line: 1 + block[..at].matches('\n').count(), message }
             }
-            if parsed.variants[..position].iter().any(|earlier| earlier.name == *name) {
-                return Err(fail(line_of(name), format!("variant '{name}' is declared twice")));
-            }
-        }
+            other => other,
+        })?;
         Ok(parsed)
     }
+}
+
+fn fail(file: &str, line: usize, message: String) -> Error {
+    Error::FrontMatter { file: file.to_owned(), line, message }
+}
+
+/// The TOML between the marks at the head of `text`, if it begins with one; its first line is the text's.
+pub(super) fn block<'a>(file: &str, text: &'a str) -> Result<Option<&'a str>, Error> {
+    let Some(rest) = text.strip_prefix(OPENING) else {
+        return Ok(None);
+    };
+    match rest.find(CLOSING) {
+        Some(end) => Ok(Some(&rest[..end])),
+        None => Err(fail(file, 1, format!("front matter is not closed by '{CLOSING}'"))),
+    }
+}
+
+/// Reads TOML; errors name `file` and the line.
+pub(super) fn read<T: DeserializeOwned>(file: &str, block: &str) -> Result<T, Error> {
+    toml::from_str(block).map_err(|error| {
+        let offset = error.span().map_or(0, |span| span.start);
+        let line = 1 + block[..offset.min(block.len())].matches('\n').count();
+        fail(file, line, error.message().replace('\n', " "))
+    })
+}
+
+/// Names must be plain and all different.
+pub(super) fn check_names(file: &str, variants: &[Declaration]) -> Result<(), Error> {
+    for (position, variant) in variants.iter().enumerate() {
+        let name = &variant.name;
+        if name.is_empty() || !name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_')
+        {
+            let message = format!("variant name '{name}' must be lower-case letters, digits and '_'");
+            return Err(fail(file, 1, message));
+        }
+        if variants[..position].iter().any(|earlier| earlier.name == *name) {
+            return Err(fail(file, 1, format!("variant '{name}' is declared twice")));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

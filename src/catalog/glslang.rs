@@ -1,4 +1,4 @@
-//! GLSL to SPIR-V through glslang's C interface.
+//! GLSL and HLSL to SPIR-V through glslang's C interface.
 //!
 //! Used directly rather than through a wrapper because debug line information and include callbacks are needed.
 #![allow(unsafe_code, reason = "glslang is a C interface")]
@@ -13,26 +13,75 @@ use glslang_sys as sys;
 /// Finds an included file's text by the name in the `#include` and the includer's name.
 pub(super) type Includes<'a> = &'a (dyn Fn(&str, &str) -> Option<String> + 'a);
 
+/// Name of every kernel's entry point.
+const ENTRY: &CStr = c"main";
+
+/// The front end that reads a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FrontEnd {
+    Glsl,
+    Hlsl,
+}
+
+/// A text to be read.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'a> {
+    pub(super) text: &'a str,
+    pub(super) front_end: FrontEnd,
+    pub(super) includes: Includes<'a>,
+}
+
+impl<'a> Source<'a> {
+    /// GLSL that includes nothing.
+    pub(super) fn glsl(text: &'a str) -> Self {
+        Source { text, front_end: FrontEnd::Glsl, includes: &|_, _| None }
+    }
+}
+
 /// Compiles one compute shader to SPIR-V 1.3 (Vulkan 1.1).
 ///
 /// `debug_lines` keeps source file names and line numbers in the module. The error is glslang's log, one diagnostic a
 /// line, in which `#line N "file"` directives of the text name the files.
-pub(super) fn compile(text: &str, includes: Includes<'_>, debug_lines: bool) -> Result<Vec<u32>, String> {
+pub(super) fn compile(source: Source<'_>, debug_lines: bool) -> Result<Vec<u32>, String> {
+    read(source, debug_lines, |shader, input, messages| translate(shader, input, messages, debug_lines))
+}
+
+/// The text after the preprocessor: what is included put in, macros expanded, comments gone, `#line`, `#version`,
+/// `#extension` and `#pragma` directives kept. Errors as of [`compile`].
+pub(super) fn preprocess(source: Source<'_>) -> Result<String, String> {
+    read(source, false, |shader, _, _| {
+        // SAFETY: the shader is live and was preprocessed; the code is a NUL-terminated string of its own.
+        Ok(unsafe { text(sys::glslang_shader_get_preprocessed_code(shader.0.as_ptr())) })
+    })
+}
+
+/// Preprocesses a source and hands on what glslang made of it, with its input and messages.
+fn read<T>(
+    source: Source<'_>,
+    debug_lines: bool,
+    then: impl FnOnce(&Shader, &sys::glslang_input_t, i32) -> Result<T, String>,
+) -> Result<T, String> {
     static PROCESS: OnceLock<()> = OnceLock::new();
     PROCESS.get_or_init(|| {
         // SAFETY: called once, before any other glslang function; finalising is left to the process's end.
         unsafe { sys::glslang_initialize_process() };
     });
 
-    let code = CString::new(text).map_err(|_| "ERROR: the text holds a NUL character".to_owned())?;
+    let code = CString::new(source.text).map_err(|_| "ERROR: the text holds a NUL character".to_owned())?;
     let resource = limits();
     let mut messages = sys::glslang_messages_t::SPV_RULES | sys::glslang_messages_t::VULKAN_RULES;
+    if source.front_end == FrontEnd::Hlsl {
+        messages |= sys::glslang_messages_t::READ_HLSL | sys::glslang_messages_t::HLSL_OFFSETS;
+    }
     if debug_lines {
         messages |= sys::glslang_messages_t::DEBUG_INFO;
     }
-    let mut includes = includes;
+    let mut includes = source.includes;
     let input = sys::glslang_input_t {
-        language: sys::glslang_source_t::GLSL,
+        language: match source.front_end {
+            FrontEnd::Glsl => sys::glslang_source_t::GLSL,
+            FrontEnd::Hlsl => sys::glslang_source_t::HLSL,
+        },
         stage: sys::glslang_stage_t::Compute,
         client: sys::glslang_client_t::Vulkan,
         client_version: sys::glslang_target_client_version_t::Vulkan1_1,
@@ -56,16 +105,32 @@ pub(super) fn compile(text: &str, includes: Includes<'_>, debug_lines: bool) -> 
     // SAFETY: `input` and all it points to outlive the shader, which is dropped at the end of this function.
     let shader =
         Shader(NonNull::new(unsafe { sys::glslang_shader_create(&input) }).ok_or("ERROR: no shader")?);
+    // SAFETY: the shader is live, and glslang copies the names. HLSL has no entry point unless one is named.
+    unsafe {
+        sys::glslang_shader_set_entry_point(shader.0.as_ptr(), ENTRY.as_ptr());
+        sys::glslang_shader_set_source_entry_point(shader.0.as_ptr(), ENTRY.as_ptr());
+    }
     // SAFETY: the shader is live and `input` is the one it was created from.
-    let preprocessed = unsafe { sys::glslang_shader_preprocess(shader.0.as_ptr(), &input) };
-    // SAFETY: likewise, and parsing follows preprocessing.
-    if preprocessed == 0 || unsafe { sys::glslang_shader_parse(shader.0.as_ptr(), &input) } == 0 {
+    if unsafe { sys::glslang_shader_preprocess(shader.0.as_ptr(), &input) } == 0 {
+        return Err(shader.log());
+    }
+    then(&shader, &input, messages.0)
+}
+
+/// Parses, links and translates a preprocessed shader.
+fn translate(
+    shader: &Shader,
+    input: &sys::glslang_input_t,
+    flags: i32,
+    debug_lines: bool,
+) -> Result<Vec<u32>, String> {
+    // SAFETY: the shader is live, preprocessed, and `input` is the one it was created from.
+    if unsafe { sys::glslang_shader_parse(shader.0.as_ptr(), input) } == 0 {
         return Err(shader.log());
     }
 
     // SAFETY: plain constructor.
     let program = Program(NonNull::new(unsafe { sys::glslang_program_create() }).ok_or("ERROR: no program")?);
-    let flags = messages.0;
     // SAFETY: both are live, and the shader outlives the program (declared before it, dropped after it).
     let linked = unsafe {
         sys::glslang_program_add_shader(program.0.as_ptr(), shader.0.as_ptr());

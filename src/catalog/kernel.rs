@@ -63,6 +63,24 @@ pub struct Kernel {
     pub outputs: usize,
     /// Tables that it reads, by ascending binding.
     pub tables: Vec<TableBinding>,
+    /// Places in its source where it may index outside of its own arrays: what it then returns says which
+    /// ([`trap_of`]).
+    pub traps: Vec<String>,
+}
+
+/// The most places that [`Kernel::traps`] tells apart.
+pub const MAX_TRAPS: usize = 0xffff;
+
+/// Results of an invocation that left its arrays at the place `number`, from 1: a quiet NaN, but not the one that
+/// arithmetic makes.
+pub const fn trap_bits(number: u32) -> u32 {
+    0x7fd0_0000 | number
+}
+
+/// The place among [`Kernel::traps`] that a result's bits tell of, if they do.
+pub const fn trap_of(bits: u32) -> Option<usize> {
+    let number = bits & 0x000f_ffff;
+    if bits & 0xfff0_0000 == trap_bits(0) && number > 0 { Some(number as usize - 1) } else { None }
 }
 
 /// How a kernel reads a table.

@@ -90,6 +90,17 @@ pub(super) fn forbid_contraction(words: &[u32]) -> Result<Vec<u32>, String> {
     Ok(module.assemble())
 }
 
+/// The module with its entry point of one name called by another.
+pub(super) fn rename_entry_point(words: &[u32], from: &str, to: &str) -> Result<Vec<u32>, String> {
+    let mut module = load(words)?;
+    for operand in module.entry_points.iter_mut().flat_map(|entry| &mut entry.operands) {
+        if *operand == Operand::LiteralString(from.to_owned()) {
+            *operand = Operand::LiteralString(to.to_owned());
+        }
+    }
+    Ok(module.assemble())
+}
+
 fn load(words: &[u32]) -> Result<Module, String> {
     load_words(words).map_err(|error| format!("SPIR-V: {error}"))
 }

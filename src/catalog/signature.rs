@@ -1,5 +1,7 @@
 //! What a variant's function looks like: names and types, from which columns, GLSL and buffers follow.
 
+use super::Language;
+
 /// The type of one parameter or result. Every component is one f32 column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Type {
@@ -104,9 +106,27 @@ impl Signature {
 
     /// The function's declaration as a variant's author writes it, without the body.
     pub fn declaration(&self) -> String {
-        let parameters: Vec<String> =
-            self.parameters.iter().map(|field| format!("{} {}", field.ty.glsl(), field.name)).collect();
-        format!("{} {}({})", self.result_type(), self.function, parameters.join(", "))
+        self.declaration_in(Language::Glsl)
+    }
+
+    /// The declaration in another language.
+    pub fn declaration_in(&self, language: Language) -> String {
+        let result = match self.results.as_slice() {
+            [only] => language.type_name(only.ty).to_owned(),
+            _ => self.result_type(),
+        };
+        let wgsl = language == Language::Wgsl;
+        let parameter = |field: &Field| {
+            let ty = language.type_name(field.ty);
+            if wgsl { format!("{}: {ty}", field.name) } else { format!("{ty} {}", field.name) }
+        };
+        let parameters = self.parameters.iter().map(parameter).collect::<Vec<_>>().join(", ");
+        let function = self.function;
+        if wgsl {
+            format!("fn {function}({parameters}) -> {result}")
+        } else {
+            format!("{result} {function}({parameters})")
+        }
     }
 }
 

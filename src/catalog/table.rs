@@ -10,6 +10,7 @@ use serde::Deserialize;
 
 use super::kernel::{FIRST_TABLE_BINDING, TableBinding, TableForm};
 use crate::numeric::clipped_sphere;
+use crate::sample::ggx;
 
 /// A table's shape and where its texels come from.
 pub struct Table {
@@ -32,8 +33,30 @@ impl Table {
 }
 
 const SPHERE_LUT_SIDE: u32 = 64;
+const GGX_SIDE: u32 = 64;
 
-static TABLES: [Table; 2] = [
+static TABLES: [Table; 4] = [
+    Table {
+        name: "ggx_amplitude",
+        summary: "of the fitted GGX table: magnitude, Schlick-Fresnel term, 0, and sphere_lut; x: roughness, \
+                  y: sqrt(1 - cosine)",
+        width: GGX_SIDE,
+        height: GGX_SIDE,
+        channels: 4,
+        texels: LazyLock::new(|| {
+            let sphere = clipped_sphere::table_by_form_factor(GGX_SIDE as usize);
+            by_roughness(|cell, at| [cell.magnitude, cell.fresnel, 0.0, sphere[at]])
+        }),
+    },
+    Table {
+        name: "ggx_minv",
+        summary: "of the fitted GGX table: elements 00, 02, 20 and 22 of Minv (column, row); x: roughness, \
+                  y: sqrt(1 - cosine)",
+        width: GGX_SIDE,
+        height: GGX_SIDE,
+        channels: 4,
+        texels: LazyLock::new(|| by_roughness(|cell, _| cell.minv)),
+    },
     Table {
         name: "sphere_lut",
         summary: "irradiance of a horizon-clipped sphere over its form factor; x: cosine -1..1, y: form factor 0..1",
@@ -51,6 +74,14 @@ static TABLES: [Table; 2] = [
         texels: LazyLock::new(|| clipped_sphere::table_by_solid_angle(SPHERE_LUT_SIDE as usize).into()),
     },
 ];
+
+/// Texels of the embedded GGX table with roughness along x, from its cells and their places in the new order.
+fn by_roughness(texel: impl Fn(&ggx::Cell, usize) -> [f32; 4]) -> Arc<[f32]> {
+    let (table, side) = (ggx::table(), GGX_SIDE as usize);
+    assert_eq!(table.size(), side, "data/ggx.csv has other sides than its texture");
+    let cell = |at: usize| texel(&table.cells()[at % side * side + at / side], at);
+    (0..side * side).flat_map(cell).collect()
+}
 
 /// Every built-in table, sorted by name.
 pub fn tables() -> &'static [Table] {
@@ -115,6 +146,21 @@ mod tests {
     #[test]
     fn tables_are_sorted() {
         assert!(tables().is_sorted_by(|a, b| a.name < b.name));
+    }
+
+    #[test]
+    fn roughness_runs_along_x() {
+        let (minv, cells) = (TableName::try_from("ggx_minv".to_owned()).unwrap(), ggx::table().cells());
+        let texels = minv.table().texels();
+        // Roughness 5, angle 2.
+        assert_eq!(texels[4 * (2 * 64 + 5)..][..4], cells[5 * 64 + 2].minv);
+        let amplitude = TableName::try_from("ggx_amplitude".to_owned()).unwrap().table().texels();
+        let sphere = TableName::try_from("sphere_lut".to_owned()).unwrap().table().texels();
+        let cell = &cells[5 * 64 + 2];
+        assert_eq!(
+            amplitude[4 * (2 * 64 + 5)..][..4],
+            [cell.magnitude, cell.fresnel, 0.0, sphere[2 * 64 + 5]]
+        );
     }
 
     #[test]

@@ -12,6 +12,7 @@ use tempfile::NamedTempFile;
 use super::draft::{deliver, draft, is_dash};
 use super::machine::{DeviceArguments, Machine};
 use super::selection;
+use super::shader::ShaderArguments;
 use crate::audit::Chunk;
 use crate::catalog::{Catalog, Variant};
 use crate::device::vulkan::VulkanDevice;
@@ -24,7 +25,8 @@ use crate::record::configurations::Reader;
 #[command(after_help = "Examples:\n  \
     rootq eval ellipse_axes --inputs in.csv --output out.csv\n  \
     rootq eval ellipse_axes --inputs - --oracle-only < in.csv\n  \
-    rootq eval ellipse_axes --inputs in.csv --variant naive --variant cross --device llvmpipe")]
+    rootq eval ellipse_axes --inputs in.csv --variant naive --variant cross --device llvmpipe\n  \
+    rootq eval ltc_disk --inputs in.csv --shader old.comp --shader new.comp")]
 pub(super) struct Arguments {
     /// Family whose columns the table has
     family: String,
@@ -42,6 +44,8 @@ pub(super) struct Arguments {
     output: PathBuf,
     #[command(flatten)]
     device: DeviceArguments,
+    #[command(flatten)]
+    shaders: ShaderArguments,
 }
 
 /// Configurations read, evaluated and written at a time.
@@ -49,17 +53,15 @@ const BATCH: usize = 1 << 16;
 
 pub(super) fn eval(arguments: &Arguments, stop: &AtomicBool) -> Result<()> {
     let problem = selection::family(&arguments.family)?;
-    let catalog = Catalog::embedded()?;
+    let mut catalog = Catalog::embedded()?;
+    let own = arguments.shaders.bring(&mut catalog, Some(problem.name()))?;
     let variants: Vec<Variant> = if arguments.oracle_only {
         Vec::new()
-    } else if arguments.variant.is_empty() {
+    } else if arguments.variant.is_empty() && own.is_empty() {
         catalog.family(problem.name()).cloned().collect()
     } else {
-        arguments
-            .variant
-            .iter()
-            .map(|name| selection::variant(&catalog, problem, name))
-            .collect::<Result<_>>()?
+        let named = arguments.variant.iter().chain(&own);
+        named.map(|name| selection::variant(&catalog, problem, name)).collect::<Result<_>>()?
     };
     for (position, variant) in variants.iter().enumerate() {
         if variants[..position].iter().any(|earlier| earlier.name == variant.name) {
@@ -97,7 +99,7 @@ impl Evaluator {
         let signature = problem.signature();
         let mut programs = Vec::new();
         for variant in variants {
-            let kernel = variant.compile(&signature, false)?.kernel;
+            let kernel = variant.compile(&signature, false)?.into_safe();
             programs.push((variant.name.clone(), machine.device.program(&kernel)?));
         }
         Ok(Evaluator { machine, programs })

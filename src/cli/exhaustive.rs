@@ -11,9 +11,8 @@ use indicatif::{HumanDuration, ProgressBar};
 use serde_json::{Map, Value, json};
 
 use super::run::{self, Arguments, Measured, Prepared};
-use super::selection::{self, Selected};
+use super::selection::Selected;
 use crate::audit::{MAX_CHUNK, Sweep};
-use crate::catalog::Catalog;
 use crate::device::{Device, Facts};
 use crate::family::FAMILIES;
 use crate::job::{self, JOURNAL, Journal, Progress};
@@ -59,8 +58,7 @@ fn range(text: &str) -> Result<Range<u64>, String> {
 
 /// The selected variants; of families that cannot be audited so an error, unless nothing was selected.
 fn select(arguments: &Arguments) -> Result<Vec<Selected>> {
-    let catalog = Catalog::embedded()?;
-    let mut selected = selection::variants(&catalog, &arguments.select)?;
+    let mut selected = super::run::select(arguments)?;
     if arguments.select.is_empty() {
         selected.retain(|selected| selected.problem.takes_all_bits());
     }
@@ -86,13 +84,13 @@ pub(super) fn audit(
         let date = started.strftime("%Y-%m-%d").to_string();
         record::default_path(&facts.name, &date, env!("ROOTQ_REVISION"))
     });
-    let folder = Folder::resume(&target, arguments.force, JOURNAL)?;
-
-    eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
+    let mut folder = Folder::resume(&target, arguments.force, JOURNAL)?;
     let mut families = selected
         .into_iter()
         .map(|selected| run::prepare(selected, &machine.device))
         .collect::<Result<Vec<_>>>()?;
+    eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
+    families.iter().for_each(|family| family.keep_modules(&mut folder));
     let job = job(&facts, &families, &range, arguments);
     let mut journal = Journal::open(&target, &job, arguments.force)?;
     let parts = families.len() as u64 * job::parts(&range);
@@ -229,7 +227,7 @@ fn exhaust<D: Device<Program = crate::device::vulkan::Program>>(
     // The time to go is told from what this process does.
     bar.reset_eta();
     let shown = Shown { ahead, bar: &bar };
-    let audited = job::exhaust(device, &family.programs, sweep, journal, &shown, stop)
+    let audited = job::exhaust(device, &family.audited, sweep, journal, &shown, stop)
         .map_err(|error| anyhow!(error))?;
     bar.finish_and_clear();
     for (summary, place) in audited.summaries.iter().zip(&family.places) {

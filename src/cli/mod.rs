@@ -15,6 +15,7 @@ mod machine;
 mod pick;
 mod run;
 mod selection;
+mod shader;
 mod timing;
 
 use std::io::IsTerminal;

@@ -11,12 +11,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::count;
 use super::machine::DeviceArguments;
 use super::selection::{self, Selected};
+use super::shader::ShaderArguments;
 use super::timing::{Depth, Timed, Timer, TimingArguments};
 use crate::audit::{self, MAX_CHUNK, Plan};
 use crate::bench::{Ceilings, Regime};
 use crate::catalog::{self, Catalog, Compiled, Variant};
 use crate::device::{self, Device, vulkan::VulkanDevice};
-use crate::family::Scenario;
+use crate::family::{self, Scenario};
 use crate::record::{self, Evidence, Folder};
 use crate::report;
 
@@ -39,6 +40,8 @@ struct Common {
     seed: u64,
     #[command(flatten)]
     device: DeviceArguments,
+    #[command(flatten)]
+    shaders: ShaderArguments,
     /// Run folder to write [default: bench_results/<device>/<date>-<commit>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -73,7 +76,9 @@ struct Precision {
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  \
     rootq run                                         every built-in variant, every scenario\n  \
-    rootq run ellipse_axes --scenario aspect -n 4M    one family on one scenario")]
+    rootq run ellipse_axes --scenario aspect -n 4M    one family on one scenario\n  \
+    rootq run --shader my.comp --family ltc_disk      your shader\n  \
+    rootq run ltc_disk --shader my.hlsl               your shader beside all of the family")]
 pub(super) struct RunArguments {
     #[command(flatten)]
     common: Common,
@@ -121,6 +126,7 @@ pub(super) struct Arguments {
     seed: u64,
     scenario: Vec<String>,
     pub(super) device: DeviceArguments,
+    shaders: ShaderArguments,
     pub(super) out: Option<PathBuf>,
     pub(super) force: bool,
     pub(super) max_failures: usize,
@@ -136,7 +142,7 @@ impl Arguments {
         exhaustive: super::exhaustive::Options,
         timing: TimingArguments,
     ) -> Self {
-        let Common { select, seed, device, out, force } = common;
+        let Common { select, seed, device, shaders, out, force } = common;
         let Precision { configurations, scenario, max_failures, chunk, threads } = precision;
         Arguments {
             select,
@@ -145,6 +151,7 @@ impl Arguments {
             seed,
             scenario,
             device,
+            shaders,
             out,
             force,
             max_failures,
@@ -186,7 +193,20 @@ pub(super) struct Prepared {
     pub(super) selected: Selected,
     /// Programs, each with its variant's place in the record.
     pub(super) programs: Vec<<VulkanDevice as Device>::Program>,
+    /// The same for audits, where some watch their indices.
+    pub(super) audited: Vec<<VulkanDevice as Device>::Program>,
     pub(super) places: Vec<usize>,
+    /// Names and modules of shaders that are not built in.
+    modules: Vec<(String, Vec<u32>)>,
+}
+
+impl Prepared {
+    /// Lets the run keep what nobody else has.
+    pub(super) fn keep_modules(&self, folder: &mut Folder) {
+        for (variant, words) in &self.modules {
+            folder.keep_module(&self.record.name, variant, words);
+        }
+    }
 }
 
 pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> Result<()> {
@@ -202,8 +222,7 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
     if arguments.exhaustive.wanted() {
         return super::exhaustive::audit(arguments, start, started, stop);
     }
-    let catalog = Catalog::embedded()?;
-    let selected = selection::variants(&catalog, &arguments.select)?;
+    let selected = select(arguments)?;
     selection::check_scenarios(&selected, &arguments.scenario)?;
     arguments.timing.check_reference(&selected)?;
     let machine = arguments.device.open_with(arguments.timing.options())?;
@@ -212,13 +231,14 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         let date = started.strftime("%Y-%m-%d").to_string();
         record::default_path(&facts.name, &date, env!("ROOTQ_REVISION"))
     });
-    let folder = Folder::create(&target, arguments.force)?;
+    let mut folder = Folder::create(&target, arguments.force)?;
 
-    eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
     let mut families = selected
         .into_iter()
         .map(|selected| prepare(selected, &machine.device))
         .collect::<Result<Vec<_>>>()?;
+    eprintln!("device: {} ({} {})", facts.name, facts.driver, facts.driver_info);
+    families.iter().for_each(|family| family.keep_modules(&mut folder));
     let timer = match halves {
         Halves::Audit => None,
         Halves::Both => Some(Timer::new(&arguments.timing, &machine.device, Depth::Glance, stop)?),
@@ -248,6 +268,18 @@ pub(super) fn run(arguments: &Arguments, halves: Halves, stop: &AtomicBool) -> R
         evidence,
     };
     finish(arguments, (start, started), folder, measured)
+}
+
+/// The selected variants; with shaders of the user's own and no other wish, these alone.
+pub(super) fn select(arguments: &Arguments) -> Result<Vec<Selected>> {
+    let mut catalog = Catalog::embedded()?;
+    // A family that is selected by name is the shaders', too.
+    let only = match arguments.select.as_slice() {
+        [only] if family::find(only).is_some() => Some(only.as_str()),
+        _ => None,
+    };
+    let own = arguments.shaders.bring(&mut catalog, only)?;
+    selection::variants(&catalog, &arguments.select, &own)
 }
 
 /// What a run found.
@@ -308,18 +340,24 @@ pub(super) fn program() -> record::Program {
 pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepared> {
     let signature = selected.problem.signature();
     let mut record = record::family(selected.problem);
-    let (mut programs, mut places) = (Vec::new(), Vec::new());
+    let (mut programs, mut audited) = (Vec::new(), Vec::new());
+    let (mut places, mut modules) = (Vec::new(), Vec::new());
     for variant in &selected.variants {
-        let Compiled { kernel, facts } = variant.compile(&signature, false)?;
+        let Compiled { kernel, watched, facts } = variant.compile(&signature, false)?;
         let skipped = match device.program(&kernel) {
             Ok(program) => {
+                audited.push(watched.map(|kernel| device.program(&kernel)).transpose()?);
                 programs.push(program);
                 places.push(record.variants.len());
                 None
             }
-            Err(error @ device::Error::NotSupported { .. }) => Some(error.to_string()),
+            // Who brings a shader wants to know.
+            Err(error @ device::Error::NotSupported { .. }) if !variant.is_own() => Some(error.to_string()),
             Err(error) => return Err(error.into()),
         };
+        if variant.is_own() {
+            modules.push((variant.name.clone(), kernel.spirv));
+        }
         record.variants.push(record::Variant {
             name: variant.name.clone(),
             file: variant.file.clone(),
@@ -329,11 +367,14 @@ pub(super) fn prepare(selected: Selected, device: &VulkanDevice) -> Result<Prepa
             precise: variant.precise,
             tables: variant.tables.iter().map(|(name, form)| (name.as_str().to_owned(), *form)).collect(),
             spirv: facts,
+            own: variant.is_own().then(|| variant.language()),
             skipped,
             results: Vec::new(),
         });
     }
-    Ok(Prepared { record, selected, programs, places })
+    let audited =
+        programs.iter().cloned().zip(audited).map(|(plain, watched)| watched.unwrap_or(plain)).collect();
+    Ok(Prepared { record, selected, programs, audited, places, modules })
 }
 
 /// What is to be done on a scenario.
@@ -378,7 +419,7 @@ fn measure(
     if work.audit {
         let total = arguments.configurations * family.programs.len() as u64;
         let bar = bar(total, &format!("audit {label}"), "{human_pos} of {human_len}  {elapsed}, {eta} to go");
-        let audited = audit::audit(device, &family.programs, &plan, &|count| bar.inc(count), stop)?;
+        let audited = audit::audit(device, &family.audited, &plan, &|count| bar.inc(count), stop)?;
         bar.finish_and_clear();
         oracle = Some(audited.oracle.into());
         digest = Some(format!("{:016x}", audited.inputs));

@@ -12,9 +12,12 @@ pub(super) struct Selected {
     pub(super) variants: Vec<Variant>,
 }
 
-/// The variants matching any of `patterns` (`family`, `family/variant` or a glob); all of them without patterns.
-pub(super) fn variants(catalog: &Catalog, patterns: &[String]) -> Result<Vec<Selected>> {
-    let mut chosen = vec![patterns.is_empty(); catalog.variants().len()];
+/// The variants matching any of `patterns` (`family`, `family/variant` or a glob), and those named `besides`; all of them
+/// without either.
+pub(super) fn variants(catalog: &Catalog, patterns: &[String], besides: &[String]) -> Result<Vec<Selected>> {
+    let all = patterns.is_empty() && besides.is_empty();
+    let mut chosen: Vec<bool> =
+        catalog.variants().iter().map(|variant| all || besides.contains(&variant.id())).collect();
     for pattern in patterns {
         let matcher = GlobBuilder::new(pattern)
             .literal_separator(true)

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::accuracy::{self, AccuracyChange, BitsChange};
-use super::time::{self, Allowance, TimeChange};
+use super::time::{self, Allowance, Common, TimeChange};
 use super::{Change, accuracy::quantile_of_normal};
-use crate::bench::Timing;
+use crate::bench::{Setting, Timing};
 use crate::record::{Family, Recorded, Result, Run, Scenario, Variant};
 
 /// What two runs of the same thing may differ by.
@@ -46,7 +46,7 @@ pub struct Comparison {
     /// Share by which times may differ before that counts.
     pub drift: f64,
     /// Where given, B's machine as a whole took so many times A's time, and ratios are relative to that.
-    pub common: Option<f64>,
+    pub common: Common,
     pub rows: Vec<Row>,
     /// `family/variant . scenario` in one run only.
     pub only_a: Vec<String>,
@@ -152,12 +152,11 @@ pub fn compare(a: &Recorded, b: &Recorded, tolerances: Tolerances) -> Comparison
     // A software device shares its machine with everything else, so only what differs from the rest is a variant's.
     // Between two devices there is nothing to take out.
     let software = a.run.device.kind == "cpu" && a.run.device.name == b.run.device.name;
-    let ratios = all_times.iter().map(|[a, b]| b.ns.median / a.ns.median).collect();
-    let common = if software { time::common(ratios) } else { None };
+    let common = if software { Common::of(&all_times) } else { Common::default() };
     let audits = pairs.iter().filter_map(|(_, [cell, _])| cell.result.audit.as_ref());
     let tests = audits.map(|audit| accuracy::tests(audit.outputs.len())).sum::<usize>() + all_times.len();
     let level = tolerances.level / tests.max(1) as f64;
-    let allowance = Allowance { drift, z: quantile_of_normal(level), common: common.unwrap_or(1.0) };
+    let z = quantile_of_normal(level);
 
     let row = |(key, cells): &(&Key, [&Cell<'_>; 2])| {
         let [cell_a, cell_b] = *cells;
@@ -166,22 +165,23 @@ pub fn compare(a: &Recorded, b: &Recorded, tolerances: Tolerances) -> Comparison
         let bits = audits.filter(|_| paired).and_then(|(audit, _)| {
             Some(BitsChange::between(a.bits.get(*key)?, b.bits.get(*key)?, audit.configurations))
         });
-        let noise = |setting| {
-            let noises =
-                cells.iter().filter_map(|cell| cell.scenario.ranking(setting)).map(|ranking| ranking.noise);
-            noises.fold(0.0, f64::max)
+        let allowance = |setting: Setting| {
+            let rankings = cells.map(|cell| cell.scenario.ranking(setting));
+            let noise = rankings.iter().flatten().fold(0.0, |noise: f64, ranking| noise.max(ranking.noise));
+            let common = common.of_regime(setting.regime).unwrap_or(1.0);
+            let [a, b] = rankings.map(|ranking| ranking.map(|ranking| ranking.null_ns.median));
+            let null =
+                if software { a.zip(b).map_or(0.0, |(a, b)| time::apart(b / a / common)) } else { 0.0 };
+            Allowance { drift: drift.max(noise).max(null), z, common }
         };
         Row {
             family: cell_a.family.name.clone(),
             variant: cell_a.variant.name.clone(),
             scenario: cell_a.scenario.name.clone(),
-            file: format!("glsl/{}", cell_b.variant.file),
+            file: cell_b.variant.path(),
             accuracy: audits.map(|(a, b)| accuracy::accuracy([a, b], bits, paired, level)),
             bits,
-            times: timed(*cells)
-                .iter()
-                .map(|[a, b]| time::time([a, b], noise(a.setting), allowance))
-                .collect(),
+            times: timed(*cells).iter().map(|[a, b]| time::time([a, b], allowance(a.setting))).collect(),
         }
     };
     let rows: Vec<Row> = pairs.iter().map(row).collect();
@@ -214,7 +214,7 @@ fn side(recorded: &Recorded) -> Side {
     }
 }
 
-fn notes(a: &Recorded, b: &Recorded, pairs: &[[&Cell<'_>; 2]], common: Option<f64>) -> Vec<String> {
+fn notes(a: &Recorded, b: &Recorded, pairs: &[[&Cell<'_>; 2]], common: Common) -> Vec<String> {
     let mut notes = Vec::new();
     let audited = |[a, b]: &&[&Cell<'_>; 2]| a.result.audit.is_some() && b.result.audit.is_some();
     let other_inputs =
@@ -239,10 +239,13 @@ fn notes(a: &Recorded, b: &Recorded, pairs: &[[&Cell<'_>; 2]], common: Option<f6
         notes.push("times were taken by different clocks in the two runs: they are not compared".to_owned());
     }
     let (host_a, host_b) = (&a.run.host, &b.run.host);
-    if let Some(common) = common {
-        notes.push(format!(
-            "all times together: B took {common:.3} times A's; that is the machine's, and ratios are relative to it"
-        ));
+    for (what, common) in [("streaming", common.streaming), ("arithmetic", common.arithmetic)] {
+        if let Some(common) = common {
+            notes.push(format!(
+                "all {what} times together: B took {common:.3} times A's; that is the machine's, and ratios are relative \
+                 to it"
+            ));
+        }
     }
     if host_a != host_b {
         notes.push(
@@ -297,6 +300,30 @@ mod tests {
         };
         assert!(times("cpu").iter().all(|change| *change == Change::Same));
         assert!(times("discrete_gpu").iter().all(|change| *change == Change::Worse));
+    }
+
+    /// One variant's time doubled among others is its own; unless the null kernel's doubled as well.
+    #[test]
+    fn what_the_null_kernel_does_is_the_machines() {
+        let run = |first: f64, null: f64| {
+            let variants: Vec<(String, f64)> = (1..=8).map(|k| (format!("v{k}"), 10.0)).collect();
+            let variants: Vec<_> = variants
+                .iter()
+                .map(|(name, ns)| (name.as_str(), 0, 0, 1e-6, if name == "v1" { ns * first } else { *ns }))
+                .collect();
+            let mut run = sample::run("cpu", &variants);
+            for scenario in &mut run.run.families[0].scenarios {
+                scenario.rankings = vec![sample::ranking(null)];
+            }
+            run
+        };
+        let change = |b: &Recorded| {
+            let told = compare(&run(1.0, 1.0), b, Tolerances::default());
+            let rows = told.rows.iter().filter(|row| row.variant == "v1");
+            rows.flat_map(|row| row.times.clone()).map(|time| time.change).collect::<Vec<_>>()
+        };
+        assert_eq!(change(&run(2.0, 1.0)), [Change::Worse; 2]);
+        assert!(change(&run(2.0, 2.2)).iter().all(|change| *change != Change::Worse));
     }
 
     #[test]

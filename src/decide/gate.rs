@@ -9,7 +9,7 @@
 //! max_error = 1e-3                # of every output in its own measure, at `quantile`
 //! max_ulp = 4                     # likewise in units of the f32 spacing
 //! quantile = "p999"               # p50, p90, p99, p999 or worst; absent: worst
-//! max_time_ratio = 1.1            # B's time over A's (on a software device relative to the median change of all times);
+//! max_time_ratio = 1.1            # B's time over A's (on a software device relative to the median change of the regime);
 //!                                 # broken where the interval's lower end is above it
 //! no_worse = ["accuracy", "time"] # what may not be worse than in A
 //! same_bits = true                # outputs as in A, to the last bit
@@ -127,7 +127,7 @@ impl Rules {
                     rule: number,
                     variant: id.clone(),
                     scenario: result.scenario.clone(),
-                    file: format!("glsl/{}", variant.file),
+                    file: variant.path(),
                     what,
                 }));
             }

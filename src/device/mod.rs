@@ -147,6 +147,11 @@ pub enum Error {
     /// The module itself is at fault, on any device.
     #[error("{kernel} is not a usable kernel: {reason}")]
     InvalidKernel { kernel: String, reason: String },
+    #[error(
+        "{kernel} indexes outside of one of its own arrays, at {place}, for row {row} of {rows}: what it computes there is \
+         nobody's"
+    )]
+    OutOfBounds { kernel: String, place: String, row: usize, rows: usize },
     /// Columns and kernel do not fit each other, or do not fit the device: the caller's mistake.
     #[error("columns do not fit: {0}")]
     Shape(String),

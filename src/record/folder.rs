@@ -13,6 +13,8 @@ use super::{Error, Evidence, Run, SCHEMA, failures};
 const RUN: &str = "run.json";
 const FAILURES: &str = "failures.parquet";
 const BITS: &str = "bits.parquet";
+/// A folder of modules, in runs of shaders that are not built in.
+const SHADERS: &str = "shaders";
 
 /// A run's files; the record, without which a folder holds no run, is the last to come.
 const FILES: [&str; 3] = [FAILURES, BITS, RUN];
@@ -23,6 +25,8 @@ pub struct Folder {
     target: PathBuf,
     /// A file in the target that ends with the run.
     journal: Option<&'static str>,
+    /// File names and words of modules to be kept.
+    modules: Vec<(String, Vec<u32>)>,
 }
 
 impl Folder {
@@ -40,7 +44,7 @@ impl Folder {
         }
         // Whatever ends the program, nothing is left behind until there is a run: this draft goes again at once.
         draft(target)?;
-        Ok(Folder { target: target.to_owned(), journal: None })
+        Ok(Folder { target: target.to_owned(), journal: None, modules: Vec::new() })
     }
 
     /// As [`create`](Self::create), for a run that keeps the file `journal` in its target until it is finished: a folder
@@ -52,12 +56,17 @@ impl Folder {
         let io = |source| Error::Io { action: "read", path: target.to_owned(), source };
         for entry in fs::read_dir(target).map_err(io)? {
             let name = entry.map_err(io)?.file_name();
-            if !FILES.iter().chain([&journal]).any(|own| name == **own) {
+            if !FILES.iter().chain([&journal, &SHADERS]).any(|own| name == **own) {
                 return Err(Error::Foreign { path: target.join(name) });
             }
         }
         draft(target)?;
-        Ok(Folder { target: target.to_owned(), journal: Some(journal) })
+        Ok(Folder { target: target.to_owned(), journal: Some(journal), modules: Vec::new() })
+    }
+
+    /// Keeps a variant's module in the run, for whoever repeats it without the variant's text.
+    pub fn keep_module(&mut self, family: &str, variant: &str, words: &[u32]) {
+        self.modules.push((module_name(family, variant), words.to_owned()));
     }
 
     /// Writes the record and moves it into place; returns where that is.
@@ -70,6 +79,16 @@ impl Folder {
         fs::write(&path, text).map_err(|source| Error::Io { action: "write", path, source })?;
         failures::write(&draft.path().join(FAILURES), evidence)?;
         bits::write(&draft.path().join(BITS), evidence)?;
+        if !self.modules.is_empty() {
+            let folder = draft.path().join(SHADERS);
+            let io = |action| move |source| Error::Io { action, path: folder.clone(), source };
+            fs::create_dir(draft.path().join(SHADERS)).map_err(io("create"))?;
+            for (name, words) in &self.modules {
+                let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+                let path = draft.path().join(SHADERS).join(name);
+                fs::write(&path, bytes).map_err(|source| Error::Io { action: "write", path, source })?;
+            }
+        }
         // The run is whole: from here on it outlives whatever goes wrong.
         let draft = draft.keep();
         self.place(&draft).map_err(|source| Error::Left { draft, path: self.target.clone(), source })?;
@@ -83,6 +102,10 @@ impl Folder {
             remove(&self.target.join(RUN))?;
             for file in FILES {
                 fs::rename(draft.join(file), self.target.join(file))?;
+            }
+            remove_modules(&self.target.join(SHADERS))?;
+            if !self.modules.is_empty() {
+                fs::rename(draft.join(SHADERS), self.target.join(SHADERS))?;
             }
             fs::remove_dir(draft)?;
         } else {
@@ -110,6 +133,32 @@ fn remove(file: &Path) -> io::Result<()> {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),
     }
+}
+
+/// Removes an earlier run's modules and their folder; anything else in it stays and is an error.
+fn remove_modules(folder: &Path) -> io::Result<()> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        entries => entries?,
+    };
+    for entry in entries {
+        let path = entry?.path();
+        if path.extension().is_some_and(|extension| extension == MODULE) {
+            fs::remove_file(path)?;
+        }
+    }
+    fs::remove_dir(folder)
+}
+
+const MODULE: &str = "spv";
+
+fn module_name(family: &str, variant: &str) -> String {
+    format!("{family}.{variant}.{MODULE}")
+}
+
+/// Where the run in folder `path` keeps a variant's module, if it keeps it.
+pub fn module_path(path: &Path, family: &str, variant: &str) -> PathBuf {
+    path.join(SHADERS).join(module_name(family, variant))
 }
 
 /// A run read back.

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use crate::audit::{Failure, Fingerprint};
 
 pub use bits::Bits;
-pub use folder::{Folder, Recorded, default_path, read};
+pub use folder::{Folder, Recorded, default_path, module_path, read};
 pub use number::parse_f32;
 pub use schema::{
     Audit, Bin, Buckets, Distribution, Extremes, Family, Host, Landmark, Oracle, Output, OutputAudit,

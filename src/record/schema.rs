@@ -139,10 +139,20 @@ pub struct Variant {
     #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
     pub tables: BTreeMap<String, catalog::TableForm>,
     pub spirv: catalog::Facts,
+    /// Of a shader that is not built in: its language. The run keeps its module, `shaders/<family>.<variant>.spv`.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub own: Option<catalog::Language>,
     /// Why this device could not run it; then there are no results.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub skipped: Option<String>,
     pub results: Vec<Result>,
+}
+
+impl Variant {
+    /// Its file as seen from the source tree, or as it was given.
+    pub fn path(&self) -> String {
+        if self.own.is_some() { self.file.clone() } else { format!("glsl/{}", self.file) }
+    }
 }
 
 /// One variant on one scenario.

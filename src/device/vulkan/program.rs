@@ -29,6 +29,7 @@ pub(super) struct Compiled {
     pub(super) inputs: usize,
     pub(super) outputs: usize,
     pub(super) tables: Option<Tables>,
+    pub(super) traps: Vec<String>,
 }
 
 impl Compiled {
@@ -82,6 +83,7 @@ impl Program {
                 inputs: kernel.inputs,
                 outputs: kernel.outputs,
                 tables,
+                traps: kernel.traps.clone(),
             }),
             evaluations: 1,
             pace: Arc::new(Pace::new()),

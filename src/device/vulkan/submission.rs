@@ -10,9 +10,9 @@ use super::lane::Extent;
 use super::memory::Role;
 use super::pace::{PROBE_ROWS, TARGET_NS, WARM_ROWS};
 use super::pool::Lease;
-use super::program::Program;
-use crate::catalog::kernel::Range;
-use crate::device::{Clock, Elapsed, Error};
+use super::program::{Compiled, Program};
+use crate::catalog::kernel::{Range, trap_of};
+use crate::device::{Clock, Elapsed, Error, Outputs};
 
 /// What unwritten outputs hold if outputs are poisoned: a signalling NaN that no arithmetic returns.
 const POISON: u32 = 0x7fba_dbad;
@@ -205,8 +205,22 @@ impl Pending {
             time: Duration::from_secs_f64(self.spent_ns * 1e-9),
             clock: self.engine.stopwatch.clock,
         };
-        Ok(OutputColumns::new(self.rows as usize, lease, elapsed))
+        let columns = OutputColumns::new(self.rows as usize, lease, elapsed);
+        trapped(&self.program.compiled, &columns, self.rows as usize)?;
+        Ok(columns)
     }
+}
+
+/// Fails if any result says that its kernel left its arrays; all of an invocation's do.
+fn trapped(kernel: &Compiled, columns: &OutputColumns, rows: usize) -> Result<(), Error> {
+    if kernel.traps.is_empty() || kernel.outputs == 0 {
+        return Ok(());
+    }
+    let found = columns.column(0).iter().enumerate().find_map(|(row, value)| {
+        let place = kernel.traps.get(trap_of(value.to_bits())?)?;
+        Some(Error::OutOfBounds { kernel: kernel.id.clone(), place: place.clone(), row, rows })
+    });
+    found.map_or(Ok(()), Err)
 }
 
 /// The sum over pairs of timestamps.

@@ -1,16 +1,15 @@
-//! The GLSL around a variant's function: tables and result struct before it, buffers and `main()` after it.
-//!
-//! No binding is written by hand anywhere else; devices share only the constants of [`super::kernel`].
+//! The text around a variant's function in GLSL.
 
 use std::fmt::Write;
 
-use super::kernel::{
+use super::Main;
+use crate::catalog::kernel::{
     COLUMNS_SET, INPUTS_BINDING, LOCAL_SIZE, OUTPUTS_BINDING, TABLES_SET, TableBinding, TableForm,
 };
-use super::{Define, Signature, Type};
+use crate::catalog::{Define, Signature, Type};
 
 /// Text before the variant's own: version, extensions, definitions, result struct.
-pub(super) fn prologue<'a>(
+pub(in crate::catalog) fn prologue<'a>(
     signature: &Signature,
     defines: impl Iterator<Item = (&'a String, &'a Define)>,
 ) -> String {
@@ -22,6 +21,13 @@ pub(super) fn prologue<'a>(
     for (name, value) in defines {
         _ = writeln!(text, "#define {name} {value}");
     }
+    text.push_str(&result_struct(signature));
+    text
+}
+
+/// The struct of several results; nothing for one.
+pub(in crate::catalog) fn result_struct(signature: &Signature) -> String {
+    let mut text = String::new();
     if signature.results.len() > 1 {
         _ = write!(text, "struct {} {{", signature.result_type());
         for field in &signature.results {
@@ -40,7 +46,7 @@ pub(super) fn prologue<'a>(
 /// - an image has `T_IMAGE` defined and is the sampler2D `t`; `t_at` is the sampler's, with the weights it has.
 ///
 /// Texels are float or vec4.
-pub(super) fn tables(bindings: &[TableBinding]) -> String {
+pub(in crate::catalog) fn tables(bindings: &[TableBinding]) -> String {
     let mut text = String::new();
     for table in bindings {
         let TableBinding { name, binding, width, height, .. } = table;
@@ -77,23 +83,8 @@ pub(super) fn tables(bindings: &[TableBinding]) -> String {
     text
 }
 
-/// What the generated `main()` does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Main {
-    /// One evaluation a configuration.
-    Evaluate,
-    /// As many evaluations in registers as the push constants say, each after the last.
-    ///
-    /// Every input is multiplied by 1 or by 1 - 2^-24, whichever a bit of all results of the last evaluation says. So no
-    /// evaluation can begin before the last one has ended, or be left out; an input stays or becomes its neighbour towards
-    /// zero, which keeps it in any domain that holds 0 or ends with a bound on the magnitude; zero stays zero; and
-    /// results that are not finite are bits like others. `precise`, lest the factor be taken out of a homogeneous
-    /// function and most of the work out of the loop.
-    Repeat,
-}
-
 /// Text after the variant's own: buffers, push constants and `main()`.
-pub(super) fn epilogue(signature: &Signature, main: Main) -> String {
+pub(in crate::catalog) fn epilogue(signature: &Signature, main: Main) -> String {
     let evaluations = if main == Main::Repeat { " uint rootq_evaluations;" } else { "" };
     let mut text = format!(
         "\nlayout(local_size_x = {LOCAL_SIZE}) in;\n\
@@ -170,11 +161,22 @@ fn results(signature: &Signature) -> Vec<String> {
     values
 }
 
+/// A function of `signature` that returns zeros: a place to put another one.
+pub(in crate::catalog) fn stub(signature: &Signature) -> String {
+    let values: Vec<String> =
+        signature.results.iter().map(|field| format!("{}(0.0)", field.ty.glsl())).collect();
+    let value = match values.as_slice() {
+        [only] => only.clone(),
+        several => format!("{}({})", signature.result_type(), several.join(", ")),
+    };
+    format!("{} {{ return {value}; }}\n", signature.declaration())
+}
+
 /// Columns that [`copy`] copies.
-pub(super) const COPIED_COLUMNS: usize = 8;
+pub(in crate::catalog) const COPIED_COLUMNS: usize = 8;
 
 /// A whole kernel that copies [`COPIED_COLUMNS`] columns without regard to which is which: four floats at once.
-pub(super) fn copy() -> String {
+pub(in crate::catalog) fn copy() -> String {
     let mut text = format!(
         "#version 450\n\
          layout(local_size_x = {LOCAL_SIZE}) in;\n\
@@ -195,7 +197,7 @@ pub(super) fn copy() -> String {
 
 /// A function of `signature` that evaluates nothing: every result is an input's bits, or several inputs' together, so
 /// that all of them are loaded and all of the results stored. What it takes is what the harness takes.
-pub(super) fn null(signature: &Signature) -> String {
+pub(in crate::catalog) fn null(signature: &Signature) -> String {
     let inputs: Vec<String> = signature
         .parameters
         .iter()

@@ -1,0 +1,22 @@
+//! The text around a variant's function: tables and result struct before it, buffers and `main()` after it.
+//!
+//! No binding is written by hand anywhere else; devices share only the constants of [`super::kernel`].
+
+pub(super) mod glsl;
+pub(super) mod hlsl;
+pub(super) mod wgsl;
+
+/// What the generated `main()` does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Main {
+    /// One evaluation a configuration.
+    Evaluate,
+    /// As many evaluations in registers as the push constants say, each after the last.
+    ///
+    /// Every input is multiplied by 1 or by 1 - 2^-24, whichever a bit of all results of the last evaluation says. So no
+    /// evaluation can begin before the last one has ended, or be left out; an input stays or becomes its neighbour towards
+    /// zero, which keeps it in any domain that holds 0 or ends with a bound on the magnitude; zero stays zero; and
+    /// results that are not finite are bits like others. `precise`, lest the factor be taken out of a homogeneous
+    /// function and most of the work out of the loop.
+    Repeat,
+}
