@@ -100,16 +100,16 @@ impl Cone {
         if !(principal.gap > ADJUGATE * size * size) {
             principal = self.principal(adjugate());
         }
-        // The whole cone's irradiance is at most this: beneath all of f32, and S need not tell e1 and e3 from 0.
-        let most = libm::sqrt(self.minus_det / principal.l) / principal.l;
-        if most < FAINT {
-            return Irradiance { bound: most, ..Irradiance::NOTHING };
-        }
         if self.dual[2].value() <= 0.0 {
             let factor = libm::sqrt(self.minus_det / principal.l / principal.gap);
             let value = (factor * principal.axes.z_axis.z).min(1.0);
             let gradient = principal.gradient(0.0, TAU);
             return Irradiance { value, bound: 24.0 * EPS * value, escalated: false, gradient };
+        }
+        // Where S does not tell e1 from 0, this is the most that the whole cone may give, and beneath all of f32.
+        let most = libm::sqrt(self.minus_det / principal.l) / principal.l;
+        if most < FAINT && !(principal.e1 > ADJUGATE * principal.l) {
+            return Irradiance { bound: most, ..Irradiance::NOTHING };
         }
         principal.clipped(self.dual[2].value())
     }
@@ -328,18 +328,28 @@ impl Principal {
         let &Principal { e1, e3, l, axes, .. } = self;
         let (a, b, c) = (libm::sqrt(e1), libm::sqrt(e3), libm::sqrt(l));
         let (root_a, root_b) = (libm::sqrt(l + e1), libm::sqrt(l + e3));
+        let (over_a, over_b) = (1.0 / root_a, 1.0 / root_b);
+        let (over_1, over_2, over_3) = (1.0 / a, 1.0 / b, -1.0 / c);
+        let (up, across, middle) = (axes.x_axis.z * a, axes.y_axis.z * b, axes.z_axis.z * c);
         let mut moments = [0.0; 6];
-        visit(&POINTS_16, start, start + turn, |angle, weight| {
-            let (sin, cos) = angle.sin_cos();
-            let (x, y) = (cos / root_a, sin / root_b);
+        let mut add = |cos: f64, sin: f64, weight: f64| {
+            let (x, y) = (cos * over_a, sin * over_b);
             let inverse = libm::sqrt(x * x + y * y);
-            let height = (axes.x_axis.z * a * x + axes.y_axis.z * b * y) / inverse + axes.z_axis.z * c;
-            let (m1, m2, m3) = (x / a, y / b, -inverse / c);
+            let height = (up * x + across * y) / inverse + middle;
+            let (m1, m2, m3) = (x * over_1, y * over_2, inverse * over_3);
             let products = [m1 * m1, m2 * m2, m3 * m3, m1 * m2, m1 * m3, m2 * m3];
             for (moment, product) in moments.iter_mut().zip(products) {
                 *moment += weight * height * product;
             }
-        });
+        };
+        // Gauss's points lie in pairs about the middle.
+        let (sin_middle, cos_middle) = libm::sincos(start + 0.5 * turn);
+        for (abscissa, weight) in POINTS_16 {
+            let (sin, cos) = libm::sincos(0.5 * turn * abscissa);
+            let weight = 0.5 * turn * weight;
+            add(cos_middle * cos - sin_middle * sin, sin_middle * cos + cos_middle * sin, weight);
+            add(cos_middle * cos + sin_middle * sin, sin_middle * cos - cos_middle * sin, weight);
+        }
         let scale = a * b * c / (TAU * root_a * root_b);
         let [xx, yy, zz, xy, xz, yz] = moments.map(|moment| moment * scale);
         let local = DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
