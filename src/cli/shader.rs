@@ -15,24 +15,26 @@ const ADAPTER: &str = "\
 TOML that says how to call a shader that was written for something else: one for all shaders, or one for each in their \
 order. The shader's own front matter (/*--- ... ---*/ at its head) may hold the same keys; all are optional, and none edits \
 the shader's file. Its entry points, stage inputs and outputs, and all functions that the call does not reach are left out.
-  family, summary, source   what it is
-  function  = \"Theirs\"                     the function to call [default: the family's name]
-  arguments = [\"N\", \"vec3(0.0)\"]         expressions in the family's parameters [default: these, in order]
-  before    = \"vec3 p[4] = ...;\"           statements before the call
-  result    = \"r.x\"                        the family's result, where r is what the function returns
-  results   = { major = \"r[0]\", ... }     the same of a family with several
-  body      = \"...\"                        instead of these: the whole body of the family's function
-  preamble, declarations                    text at file scope, before and after the shader's
-  include   = [\"common.glsl\"]              files before it: beside it, in -I, or rootq's own steps (common/...)
-  defines   = { half = \"float\" }           rename = { minv = \"their_minv\" }
-  uniforms  = { roughness = \"0.5\" }        values of uniforms and stage inputs
-  samplers  = { lut = \"ggx_minv\" }         tables for textures; or { table = ..., form = \"buffer\" }
-  up        = \"y\"                          the shader's up axis; the families' is z
-  [[variant]] name, defines, precise        several variants of one text
+  family, summary, source        what it is
+  function  = \"theirs\"           to call [default: the family's name]
+  arguments = [\"a\", \"vec3(0)\"]   of the family's parameters [default: they]
+  before    = \"vec3 p[4] = ...;\" statements before the call
+  result    = \"r.x\"              the result; r is what the function returns
+  results   = { major = \"r.a\" }  the same of a family with several
+  body      = \"...\"              instead: the whole body of the function
+  preamble, declarations         text at file scope, before and after
+  include   = [\"common.glsl\"]    before it: beside it, in -I, or built in
+  defines   = { half = \"float\" }
+  rename    = { minv = \"their_minv\" }
+  uniforms  = { gain = \"0.5\" }   values of uniforms and stage inputs
+  samplers  = { lut = \"ggx_minv\" } tables for textures; or
+              { lut = { table = \"ggx_minv\", form = \"buffer\" } }
+  up        = \"y\"                the shader's up axis; the families' is z
+  [[variant]]                    name, defines, precise: several of one text
 Example, a polygon light that samples a table in the middle:
-  function  = \"LTC_Evaluate\"
-  arguments = [\"N\", \"V\", \"vec3(0.0)\", \"mat3(1.0)\", \"points\", \"false\"]
-  before    = \"vec3 N = vec3(0, 0, 1), V = N; vec3 points[4] = vec3[4](p0, p1, p2, p3);\"
+  function  = \"evaluate_light\"
+  before    = \"vec3 N = vec3(0, 0, 1); vec3 P[4] = vec3[4](p0, p1, p2, p3);\"
+  arguments = [\"N\", \"N.yzx\", \"vec3(0)\", \"minv\", \"P\", \"true\"]
   result    = \"r.x\"
   samplers  = { ltc_2 = \"ggx_amplitude\" }";
 
