@@ -2,7 +2,7 @@
 //!
 //! What is searched are the words that a scenario draws, as a point of the unit cube, so that every candidate is a
 //! configuration that the scenario draws, if ever so rarely. The device evaluates whole batches; the judge's verdict says how
-//! bad each is ([`size`](size::size)). With every batch goes one of the same number of ordinary random configurations, so
+//! bad each is (`size`). With every batch goes one of the same number of ordinary random configurations, so
 //! that search and sampling have cost the same whenever the hunt ends.
 
 mod search;
