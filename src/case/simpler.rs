@@ -33,8 +33,17 @@ pub(super) fn parameters(signature: &Signature) -> Vec<Parameter> {
 }
 
 /// Every candidate that is cheaper than `values`, each once, the cheapest first: among equals, the earlier one made.
+/// No vector becomes zero that is not: many a formula fails on that, but in another way.
 pub(super) fn candidates(parameters: &[Parameter], values: &[f32]) -> Vec<Candidate> {
-    let mut made = Made { from: values, limit: cost(values), seen: BTreeSet::new(), all: Vec::new() };
+    let is_zero = |columns: &Range<usize>| values[columns.clone()].iter().all(|value| *value == 0.0);
+    let vectors = parameters.iter().filter(|(ty, columns)| *ty != Type::Float && !is_zero(columns));
+    let mut made = Made {
+        from: values,
+        vectors: vectors.map(|(_, columns)| columns.clone()).collect(),
+        limit: cost(values),
+        seen: BTreeSet::new(),
+        all: Vec::new(),
+    };
     for at in 0..values.len() {
         for value in simpler(values, at) {
             made.set(&[at], |_| value);
@@ -202,6 +211,8 @@ fn rounded(value: f32, bits: u32) -> f32 {
 /// Candidates made so far.
 struct Made<'a> {
     from: &'a [f32],
+    /// Columns of vectors and matrices that are not zero, and stay so: zero is another problem than what they have.
+    vectors: Vec<Range<usize>>,
     limit: u64,
     seen: BTreeSet<Vec<u32>>,
     all: Vec<Candidate>,
@@ -224,7 +235,11 @@ impl Made<'_> {
             *value += 0.0;
         }
         let cost = cost(&values);
-        if cost >= self.limit || values.iter().any(|value| !value.is_finite()) {
+        let vanishes = |columns: &Range<usize>| values[columns.clone()].iter().all(|value| *value == 0.0);
+        if cost >= self.limit
+            || values.iter().any(|value| !value.is_finite())
+            || self.vectors.iter().any(vanishes)
+        {
             return;
         }
         if self.seen.insert(values.iter().map(|value| value.to_bits()).collect()) {
@@ -258,7 +273,8 @@ mod tests {
         let has = |values: [f32; 4]| tried.iter().any(|candidate| candidate.values == values);
         assert!(has([0.0, -36.0, 0.0, 1.7]) && has([0.0, 1.0, 0.0, 1.7]));
         assert!(has([0.812_5, -1.125, 0.1875, 1.7]), "scaled to unit size");
-        assert!(has([0.0; 4]) && tried[0].values == [0.0; 4]);
+        // The vector does not vanish.
+        assert!(!has([0.0; 4]) && !has([0.0, 0.0, 0.0, 1.7]) && has([1.0; 4]));
     }
 
     proptest! {
