@@ -9,17 +9,20 @@
 //!                        family, numeric
 //! summary + timings --> record (one folder a run) --> tables; two runs --> what changed; many --> what to ship
 //!       bench             job: parts of a long one    report                decide
+//! a recorded failure --> the same bits again, smaller, elsewhere
+//!       case
 //! ```
 //!
 //! Everything on that line is a pure function of (family, scenario, seed, index range, device), works on chunks of at
 //! most 2^20 configurations, and merges by integer addition and max.
 //!
-//! Who may use whom: `cli` -> `report` -> `decide` -> `record` -> `bench`, `job`, `hunt` -> `audit` -> `device`,
+//! Who may use whom: `cli` -> `report` -> `decide`, `case` -> `record` -> `bench`, `job`, `hunt` -> `audit` -> `device`,
 //! `family` -> `catalog` -> `sample` -> `numeric`; `cli` -> `fit` -> `sample`; `cli`, `report` -> `probe` -> `device`,
 //! `catalog`, `sample`. Nothing points back. `device` knows no family, `family` knows no device, only `cli` prints.
 
 pub mod audit;
 pub mod bench;
+pub mod case;
 pub mod catalog;
 pub mod cli;
 pub mod decide;

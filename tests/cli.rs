@@ -422,7 +422,7 @@ fn a_builtin_s_table_says_whether_it_keeps_the_specification() {
 
 #[test]
 fn help_says_what_each_verb_is_for() {
-    for verb in ["devices", "list", "run", "audit", "bench", "eval", "hunt", "new"] {
+    for verb in ["devices", "list", "run", "audit", "bench", "eval", "hunt", "replay", "minimize", "new"] {
         let help = succeeds(rootq().args([verb, "--help"]));
         assert!(help.contains("Usage: rootq") && help.lines().count() > 5, "{help}");
     }

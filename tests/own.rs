@@ -179,6 +179,38 @@ fn every_verb_takes_it() {
     assert!(rows[0].contains(&"cross.major_len"));
 }
 
+/// A function that has the family's signature already, and a uniform: the adapter need say nothing but its value.
+#[test]
+fn a_uniform_of_a_function_of_the_family() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("in.csv"), "x\n9\n").unwrap();
+    for (file, text) in [
+        ("a.comp", "uniform real gain;\nreal builtin_sqrt(real x) { return gain * sqrt(x); }\n"),
+        ("b.hlsl", "cbuffer B { real gain; };\nreal builtin_sqrt(real x) { return gain * sqrt(x); }\n"),
+    ] {
+        fs::write(folder.path().join(file), text).unwrap();
+        fs::write(folder.path().join("a.toml"), "uniforms = { gain = \"real(2.0)\" }\n").unwrap();
+        let mut command = rootq();
+        command.current_dir(folder.path());
+        command.args([
+            "eval",
+            "sqrt",
+            "--inputs",
+            "in.csv",
+            "--shader",
+            file,
+            "--adapter",
+            "a.toml",
+            "-D",
+            "real=float",
+        ]);
+        let (code, table, words) = outcome(&mut command);
+        assert_eq!(code, 0, "{words}");
+        let last = table.lines().last().unwrap().split(',').next_back().unwrap();
+        assert_eq!(last.parse::<f32>(), Ok(6.0), "{table}");
+    }
+}
+
 /// Included files are found beside the shader, in folders of -I, and among the built-in steps; -D wins over all else.
 #[test]
 fn includes_and_definitions() {

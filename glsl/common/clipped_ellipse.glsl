@@ -11,8 +11,8 @@
 //     F     the whole cone's irradiance, signed: v W3/sqrt(l A B)
 //     turn  = angle(-2 sqrt(l A B szz) W3, t - l szz) in 0..2 pi           t = l (A + B - l) W3^2 - e1 e3 (1 - W3^2)
 //     dphi  = angle(2 v sqrt(szz), t + l szz), between the crossings' azimuths
-//     z, x  = 2 sqrt(szz A e1 k W1^2), A m - e3 k W2^2 + k szz             x^2 - z^2 = the square of turn's arguments
-//     y, c  = 2 sqrt(szz B e3 k W2^2), B m + e1 k W1^2 - k szz
+//     z, x  = 2 sqrt(szz A e1 k W1^2), l m + k szz + e1^2 W1^2 + e3^2 W2^2      x^2 - z^2 = the square of turn's arguments
+//     y, c  = 2 sqrt(szz B e3 k W2^2), l (m + k W3^2) + e3 (m - k W2^2)
 //
 // in which the axes occur by k W1^2 = m - e3 (1 - W3^2) and k W2^2 alone: no eigenvector but the mean direction is needed.
 // The differences of antiderivatives are single functions by the addition theorems, so that small, far and circular lights
@@ -31,7 +31,8 @@ const float CLIPPED_TURN = 6.28318530718;
 // a power of two 2^n and atanh(r), |r| <= 0.2; for n = 0 it is r = z/x itself.
 float clipped_log_ratio(float x, float z, float square)
 {
-    float sum = (x + z) * (x + z);
+    float sum = max((x + z) * (x + z), DISK_SMALLEST);
+    square = max(square, DISK_SMALLEST);
     // The difference of the bits is the difference of the logarithms to base 2, up to 0.09.
     int n = (floatBitsToInt(sum) - floatBitsToInt(square) + (1 << 22)) >> 23;
     bool small = n == 0;
@@ -45,7 +46,7 @@ float clipped_log_ratio(float x, float z, float square)
 float clipped_ellipse(DiskCone cone, float szz)
 {
     float l = cone.l;
-    float root = sqrt(szz);
+    float root2 = 2.0 * sqrt(szz);
     float w3 = cone.height2;
     float rest = cone.level2;
     float k = sqrt(max(cone.sum * cone.sum - 4.0 * cone.product, 0.0));
@@ -59,22 +60,22 @@ float clipped_ellipse(DiskCone cone, float szz)
     float w1 = k1 / max(k, DISK_SMALLEST);
     float w2 = rest - w1;
 
-    float sine = 2.0 * root * cone.slant;
+    float sine = root2 * cone.slant;
     float swing = l * (l + cone.sum) * w3 - cone.product * rest;
     float cosine = swing - l * szz;
     float turn = arctangent_upper(abs(sine), cosine);
     turn = sine > 0.0 ? CLIPPED_TURN - turn : turn;
 
-    float z = 2.0 * sqrt(szz * A * (e1 * k1));
-    float x = A * m - e3 * k2 + k * szz;
+    float z = root2 * sqrt(A * (e1 * k1));
+    float x = l * m + k * szz + e1 * (e1 * w1) + e3 * (e3 * w2);
     float first = clipped_log_ratio(x, z, sine * sine + cosine * cosine);
 
-    float y = 2.0 * sqrt(szz * B * (e3 * k2));
-    float c = B * m + e1 * k1 - k * szz;
-    bool narrow = y <= 1.0e-4 * abs(c);
-    float second = (narrow ? 1.0 : arctangent_upper(y, c)) / (narrow ? c : y);
+    float y = root2 * sqrt(B * (e3 * k2));
+    float c = l * (m + k * w3) + e3 * (m - k2);
+    bool narrow = y <= 1.0e-4 * c;
+    float second = (narrow ? 1.0 : arctangent_upper(y, c)) / (narrow ? c : max(y, DISK_SMALLEST));
 
-    float scale = 2.0 * cone.volume * root;
+    float scale = cone.volume * root2;
     float dphi = arctangent_upper(scale, swing + l * szz);
     float sum = cone.volume * (cone.rise * turn) + dphi - scale * (w1 * first + w2 * second);
     return clamp(sum * (1.0 / CLIPPED_TURN), 0.0, 1.0);

@@ -65,28 +65,31 @@ struct DiskCone {
     float slant;      // sqrt(l A B) W3
 };
 
-// From l and the mean direction's part in the light's plane, over l/((h1 + l) (h2 + l)) if its part across is the height over
-// the plane.
+// From l and the mean direction's part in the light's plane, over 1/((h1 + l) (h2 + l)) if its part across is the height over
+// the plane, over l: its product with the centre is then 1, and it is as long as the light is near.
 DiskCone disk_cone(DiskFrame f, Confocal k, float l, vec2 plane)
 {
     float square = (l + k.sum) * l + k.product;
     float inverse_root = inversesqrt(square);
     float inverse = inverse_root * inverse_root;
-    plane *= l * inverse;
-    float side = plane.y * f.slope.x + f.cz * f.slope.y;
-    float up = plane.y * f.slope.y - f.cz * f.slope.x;
+    float inverse_l = 1.0 / l;
+    plane *= inverse;
+    float across = f.cz * inverse_l;
+    float side = plane.y * f.slope.x + across * f.slope.y;
+    float up = plane.y * f.slope.y - across * f.slope.x;
     float level2 = plane.x * plane.x + side * side;
     float inverse_w = 1.0 / (level2 + up * up);
 
     DiskCone cone;
     cone.l = l;
-    cone.sum = max(k.sum - (l * k.gamma + k.product * k.alpha) * inverse, 0.0);
-    cone.product = k.product * k.z / l;
+    float share = k.z * inverse_l;
+    cone.sum = (l * k.beta + k.kappa) * inverse + k.sum * share;
+    cone.product = k.product * share;
     cone.volume = f.area * abs(f.cz);
     cone.height2 = up * up * inverse_w;
     cone.level2 = level2 * inverse_w;
-    cone.rise = inverse_root * (up * inverse_w);
-    cone.slant = square * inverse_root * up;
+    cone.rise = inverse_root * (up * inverse_w) * inverse_l;
+    cone.slant = square * inverse_root * (up * l);
     return cone;
 }
 

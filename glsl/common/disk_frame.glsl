@@ -18,7 +18,9 @@ const float DISK_SMALLEST = 1.17549435e-38;
 // A light that is longer than 2^12 times what else there is seems endless, to 2^-24 of the hemisphere: it is cut there.
 const float DISK_ENDLESS = 4096.0;
 
-// A height below this share of the light's size is taken for this: the point is on the light, on the side it was.
+// The light's size is 2^10: products of up to eight lengths occur, so that the largest leave a factor of 10 to the end of f32's
+// range, and the smallest have the rest of it. A height below this is taken for this, 1e-18 of the light's size: the point is
+// on the light, on the side it was.
 const float DISK_TOUCHING = 1.0e-15;
 
 struct DiskFrame {
@@ -39,18 +41,19 @@ float disk_longest(vec3 v)
     return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
-// For the centre and any conjugate semi-axes before m. Matrix, light and image are scaled by powers of two.
+// For the centre and any conjugate semi-axes before m. Matrix, light and image are scaled by powers of two; the first two to 2^19,
+// for the volume is a product of six.
 //
 // What belongs to a plane is mapped by the cofactors of m, since m v1 x m v2 = cof(m) (v1 x v2): a matrix that makes needles of
 // all lights, as at grazing angles, costs no digits then, where a cross product of the images loses as many as the needle
 // is long.
 DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
 {
-    float scale = scale_to_one(disk_longest(max(abs(m[0]), max(abs(m[1]), abs(m[2])))));
+    float scale = scale_to_power(disk_longest(max(abs(m[0]), max(abs(m[1]), abs(m[2])))), 19);
     m[0] *= scale;
     m[1] *= scale;
     m[2] *= scale;
-    scale = scale_to_one(disk_longest(max(abs(c), max(abs(v1), abs(v2)))));
+    scale = scale_to_power(disk_longest(max(abs(c), max(abs(v1), abs(v2)))), 19);
     c *= scale;
     v1 *= scale;
     v2 *= scale;
@@ -65,9 +68,6 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     vec3 area = cross(v1, v2);
     vec3 N = area.x * k0 + area.y * k1 + area.z * k2;
     float volume = dot(kz, vec3(m[0].z, m[1].z, m[2].z)) * dot(area, c);
-    // The heights of C x V1 and C x V2.
-    float up1 = dot(kz, cross(c, v1));
-    float up2 = dot(kz, cross(c, v2));
 
     float far = disk_longest(C);
     float long1 = disk_longest(V1);
@@ -75,7 +75,7 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     // At most one of them is endless.
     float longer = max(long1, long2);
     float cut = min(DISK_ENDLESS * max(min(long1, long2), far) / max(longer, DISK_SMALLEST), 1.0);
-    scale = scale_to_one(max(far, max(min(long1, long2), longer * cut)));
+    scale = scale_to_power(max(far, max(min(long1, long2), longer * cut)), 10);
     float cut1 = long1 < longer ? 1.0 : cut;
     float cut2 = long1 < longer ? cut : 1.0;
     cut1 *= scale;
@@ -86,8 +86,6 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     N *= cut1;
     N *= cut2;
     volume = volume * scale * cut1 * cut2;
-    up1 = up1 * scale * cut1;
-    up2 = up2 * scale * cut2;
 
     DiskFrame f;
     vec2 up = vec2(V1.z, V2.z);
@@ -97,21 +95,22 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     up = level ? vec2(1.0, 0.0) : up * inverse_a3;
     f.a3 = level ? 0.0 : up_square * inverse_a3;
     // B a3 = V1.z V2 - V2.z V1 is N turned by a right angle.
-    vec2 B = level ? V2.xy : vec2(N.y, -N.x);
+    vec2 B = level ? V2.xy : vec2(N.y, -N.x) * inverse_a3;
     float b2 = dot(B, B);
     float inverse_b = inversesqrt(max(b2, DISK_SMALLEST));
     B *= inverse_b;
-    f.b = b2 * inverse_b * inverse_a3;
-    inverse_b *= level ? 1.0 : f.a3;
+    f.b = b2 * inverse_b;
     float n2 = dot(N, N);
     float inverse_n = inversesqrt(max(n2, DISK_SMALLEST));
     f.a1 = up.x * dot(B, V1.xy) + up.y * dot(B, V2.xy);
-    f.area = n2 > 1.0e-36 ? n2 * inverse_n : 0.0;
+    f.area = min(n2, b2) > 1.0e-36 ? n2 * inverse_n : 0.0;
     f.h = f.area * inverse_b;
     f.slope = vec2(-N.z, f.b * f.a3) * inverse_n;
     f.c1 = dot(B, C.xy);
     f.c3 = C.z;
-    f.d = (up.y * up1 - up.x * up2) * inverse_b * f.slope.x + f.c3 * f.slope.y;
+    // The height of C x B, by the light before m.
+    float crossed = dot(kz, cross(c, (cut1 * up.y) * v1 - (cut2 * up.x) * v2)) * scale;
+    f.d = crossed * inverse_b * f.slope.x + f.c3 * f.slope.y;
     float height = max(abs(volume) * inverse_n, DISK_TOUCHING);
     f.cz = volume < 0.0 ? -height : height;
     return f;

@@ -18,6 +18,13 @@ float scale_to_one(float m)
     return uintBitsToFloat(uint(clamp(254 - exponent, 1, 253)) << 23);
 }
 
+// The same for [2^k, 2^(k + 1)).
+float scale_to_power(float m, int k)
+{
+    int exponent = int(floatBitsToUint(m) >> 23) & 255;
+    return uintBitsToFloat(uint(clamp(254 + k - exponent, 1, 253)) << 23);
+}
+
 // The exact reciprocal of a power of two in 2^-126..2^126.
 float reciprocal_power_of_two(float s)
 {

@@ -32,6 +32,8 @@ defines = { ACOS = 1 }
 // Source: Heitz & Hill 2017; the differences ours.
 // Bound: rational terms within a few roundings; p1 x p2 and q1 x q2 lose distance over length, 2^-24 each. acos: the
 // angle's absolute error is 2^-12, so all of a light that subtends less is noise.
+// By distance over length, all scenarios below but edge, they fail at 1 to 10, to 100, to 1e3, to 1e4 and to 1e5 for
+//   atan2 4.9, 3.7, 3, 6.4, 7.5 %     atan_difference 3.7, 3.6, 6, 11, 13 %     acos 19, 19, 72, 96, 96 %
 // Measured: llvmpipe (Mesa 22.3.6 (LLVM 15.0.6)), 1,000,000 a scenario, seed 1.
 // Failed and the worst error, whoever is to blame; n: failed, and so many of them not finite.
 //                          ggx       far   grazing      near   horizon     long       edge

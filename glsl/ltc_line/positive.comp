@@ -45,6 +45,8 @@ precise = true
 // Source: ours.
 // Bound: about 20 roundings times the condition of Minv, plus 2^-24/sin of the angle between the nearer end and p2 - p1; with
 // SPLIT_NORMAL plus 2^-34 |p1| |p2|/|p1 x p2| instead.
+// By distance over length: none fails beyond 1, whatever the distance; what fails without SPLIT_NORMAL lies closer to the infinite
+// line than 1e-6 of the length.
 // Measured: llvmpipe (Mesa 22.3.6 (LLVM 15.0.6)), 1,000,000 a scenario, seed 1.
 // Failed and the worst error, whoever is to blame; n: failed, and so many of them not finite.
 //                                      ggx     far  grazing    near  horizon    long         edge

@@ -24,6 +24,8 @@ defines = { POINTS = 3 }
 // Source: ours; Gauss-Legendre abscissae.
 // Bound: with r the half width over the distance (after Minv), error r^4 for 2 points and r^6 for 3, relative; where
 // the horizon cuts the strip lengthwise, the step between two lines.
+// By half width over distance, all roughnesses, they are off at 0.01 to 0.03, to 0.1, to 0.3 and to 1 for
+//   gauss2 0.005, 0.26, 4.9, 50 %     gauss3 0.0005, 0.06, 1.4, 25 %
 // Measured: llvmpipe (Mesa 22.3.6 (LLVM 15.0.6)), 1,000,000 a scenario, seed 1.
 // Failed and the worst error, whoever is to blame; n: failed, and so many of them not finite.
 //            ggx_alpha_02  ggx_alpha_01  ggx_alpha_05       edge

@@ -3,6 +3,7 @@
 //! `glsl/<family>/<stem>.comp` holds front matter and one function; [`Catalog::embedded`] has them all, and
 //! [`Variant::compile`] turns one into a [`Kernel`].
 
+mod flatten;
 mod front_matter;
 mod generate;
 mod glslang;
@@ -23,6 +24,7 @@ use include_dir::{Dir, include_dir};
 use generate::glsl;
 use glslang::Source;
 
+pub use flatten::compile_standalone;
 pub use front_matter::{Declaration, Define, FrontMatter};
 pub use kernel::{Kernel, TableBinding, TableForm};
 pub use language::Language;
@@ -30,7 +32,7 @@ pub use operations::Operations;
 pub use own::Request;
 pub use reflect::Facts;
 pub use signature::{Field, Signature, Type};
-pub use table::{Table, TableName, tables};
+pub use table::{Table, TableName, table_bindings, tables};
 pub use variant::{Compiled, Variant};
 
 static BUILT_IN: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/glsl");

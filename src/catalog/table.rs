@@ -120,6 +120,12 @@ impl TryFrom<String> for TableName {
     }
 }
 
+/// The bindings of tables by name, as a record has them; the error says which there is none of.
+pub fn table_bindings(wanted: &BTreeMap<String, TableForm>) -> Result<Vec<TableBinding>, String> {
+    let named = wanted.iter().map(|(name, form)| Ok((TableName::try_from(name.clone())?, *form)));
+    Ok(bindings(&named.collect::<Result<_, String>>()?))
+}
+
 /// The bindings of what a variant asks for, in order of names.
 pub(super) fn bindings(wanted: &BTreeMap<TableName, TableForm>) -> Vec<TableBinding> {
     (FIRST_TABLE_BINDING..)

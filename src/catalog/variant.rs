@@ -191,6 +191,14 @@ impl Variant {
         matches!(self.text, Text::Own(_))
     }
 
+    /// The family's function and what it needs, with front matter, if it is built in.
+    pub(super) fn function(&self) -> Option<&str> {
+        match &self.text {
+            Text::Function(text) => Some(text),
+            Text::Own(_) => None,
+        }
+    }
+
     /// What it is written in.
     pub fn language(&self) -> Language {
         match &self.text {

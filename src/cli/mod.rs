@@ -13,8 +13,10 @@ mod fit;
 mod hunt;
 mod list;
 mod machine;
+mod minimize;
 mod new;
 mod pick;
+mod replay;
 mod run;
 mod selection;
 mod shader;
@@ -101,6 +103,22 @@ enum Verb {
     /// failures.parquet of the run folder (index 0, for it is in no random stream), which other verbs read as they do a
     /// run's. Interrupted, the hunt ends with what it found.
     Hunt(hunt::Arguments),
+    /// Evaluate recorded failures again, here or on another device; export one for a bug report
+    ///
+    /// RUN is a run's folder or a failures.parquet. Every failure's inputs are evaluated again, bit for bit, and the list says
+    /// for each variant and scenario how many still fail with the same verdict, with another one, or no longer, and how
+    /// many outputs have the recorded bits. With --failure K it tells everything of one: inputs and outputs in decimal, as
+    /// hexadecimal floats and as bits, the truth and how certain it is, and what every other variant of the family makes of
+    /// it. Exit status: 0 whether or not they still fail.
+    Replay(replay::Arguments),
+    /// Shrink a failing configuration to one that a person can read and that fails in the same way
+    ///
+    /// Tries whole populations of simpler configurations at a time (zeros, ones, powers of two, few bits or digits, equal or
+    /// axis-aligned or unit vectors) and takes the simplest that has the same verdict, again and again until none has. A
+    /// configuration counts only where the oracle is certain and, if other variants of the family were right at the start,
+    /// one of them still is. The same failure on the same device always ends in the same bits. Shows both side by side, and
+    /// for each input what became of simpler values.
+    Minimize(minimize::Arguments),
     /// Write a shader to begin with
     ///
     /// A file with the family's function, to be filled in: what it computes, parameters and results with their columns, how
@@ -153,6 +171,8 @@ pub fn main() -> ExitCode {
         Verb::Audit(arguments) => run::run(&arguments.into(), run::Halves::Audit, &stop).map(Outcome::from),
         Verb::Bench(arguments) => run::run(&arguments.into(), run::Halves::Bench, &stop).map(Outcome::from),
         Verb::Eval(arguments) => eval::eval(&arguments, &stop).map(Outcome::from),
+        Verb::Replay(arguments) => replay::replay(&arguments, &stop).map(Outcome::from),
+        Verb::Minimize(arguments) => minimize::minimize(&arguments, &stop).map(Outcome::from),
         Verb::New(arguments) => new::new(&arguments).map(Outcome::from),
         Verb::Hunt(arguments) => hunt::hunt(&arguments, &stop),
         Verb::Compare(arguments) => compare::compare(&arguments),

@@ -225,7 +225,16 @@ impl Problem for LtcDisk {
         let (cc, aa, bb) = (exact3::square(&c), exact3::square(&a), exact3::square(&b));
         let dual = [0, 1, 2, 3, 4, 5].map(|i| aa[i] + bb[i] - cc[i]);
         let towards = DVec3::from_array(c.map(|component| component.value()));
-        let light_of_cone = Cone { dual, minus_det: volume * volume, towards }.irradiance();
+        let light_of_cone = Cone { dual, minus_det: volume * volume, towards }.irradiance(|| {
+            let cofactors = exact3::cofactors(&minv);
+            let square = |a, b| {
+                let crossed = exact3::combined(&cofactors, &exact3::crossed(a, b));
+                exact3::square(&crossed.map(|component| component.scaled(scale).scaled(scale)))
+            };
+            let [c, a, b] = light;
+            let (ab, ca, cb) = (square(a, b), square(c, a), square(c, b));
+            [0, 1, 2, 3, 4, 5].map(|i| ab[i] - ca[i] - cb[i])
+        });
         if light_of_cone.escalated {
             truth.escalate();
         }
@@ -469,6 +478,75 @@ mod tests {
         let angle = libm::atan(0.75);
         let expected = (angle - angle.sin() * angle.cos()) / core::f64::consts::PI;
         assert!((truth_of(&side).values()[0] - expected).abs() < 1e-15);
+    }
+
+    /// Needles whose cone is 2^100 times as long as wide: quadrature with 60 digits, tools/truths/ltc_disk.py.
+    #[test]
+    fn needles_beyond_the_digits_of_the_quadric() {
+        let diagonal = |m: [f32; 3], light: [f32; 9]| {
+            let mut row = [0.0; 18];
+            (row[MINV], row[MINV + 4], row[MINV + 8]) = (m[0], m[1], m[2]);
+            row[CENTER..].copy_from_slice(&light);
+            row
+        };
+        let lights = [
+            (
+                diagonal(
+                    [-0.9999973, -2147481700.0, 1.084214e-19],
+                    [
+                        1.1754956e-38,
+                        -1.1754887e-38,
+                        -4.6565987e-10,
+                        -1.23e-43,
+                        -1.0842103e-19,
+                        1.0000068e-7,
+                        -1.0000067e-7,
+                        0.9999971,
+                        2147487000.0,
+                    ],
+                ),
+                0.146035383453987,
+            ),
+            (
+                diagonal(
+                    [-9999965000.0, -9999997000.0, -1.9999901],
+                    [
+                        4.656629e-10,
+                        5.9e-44,
+                        0.49999747,
+                        -1.1920925e-7,
+                        1.0842045e-19,
+                        -1.0000019,
+                        2147474300.0,
+                        9.2233424e18,
+                        9.2233237e18,
+                    ],
+                ),
+                1.77307012609179e-7,
+            ),
+            (
+                diagonal(
+                    [-9.99994e-8, -9.9999376e-8, 1.00000045e-20],
+                    [
+                        1.0000045e-7,
+                        9.999979e-8,
+                        1.1920983e-7,
+                        -9.2233253e18,
+                        -2147499300.0,
+                        9999954000.0,
+                        -2.0000234,
+                        -1.1754906e-38,
+                        9.9999816e-8,
+                    ],
+                ),
+                1.15526741259534e-26,
+            ),
+        ];
+        for (row, expected) in lights {
+            let truth = truth_of(&row);
+            assert!((truth.values()[0] / expected - 1.0).abs() < 1e-13, "{truth:?} for {expected}");
+            assert!(truth.worst_bound() <= CERTIFIED, "{truth:?}");
+        }
     }
 
     #[test]

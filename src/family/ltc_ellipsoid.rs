@@ -157,7 +157,7 @@ impl Problem for LtcEllipsoid {
             minus_det: determinant * determinant * outside,
             towards: matrix * c,
         };
-        let light = cone.irradiance();
+        let light = cone.irradiance(|| cone.minors());
         if light.escalated {
             truth.escalate();
         }

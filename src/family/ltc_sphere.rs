@@ -182,7 +182,14 @@ impl Problem for LtcSphere {
         let minus_det = determinant * determinant * (r * r * r * r) * (outside * by_length * by_length);
         let matrix = DMat3::from_cols(m[0], m[1], m[2]);
         let cone = Cone { dual: exact3::congruence(&m, &own), minus_det, towards: matrix * c };
-        let light = cone.irradiance();
+        let light = cone.irradiance(|| {
+            // Of r^2 - c c^T: r^2 (c c^T - (d^2 - r^2)).
+            let cofactors = exact3::cofactors(&m);
+            let over = Twofold::from(outside * by_length * by_length);
+            let axes = [0, 1, 2].map(|k| exact3::square(&cofactors[k]));
+            let along = exact3::square(&exact3::combined(&cofactors, &c.to_array().map(Twofold::from)));
+            std::array::from_fn(|i| r2 * (along[i] - over * (axes[0][i] + axes[1][i] + axes[2][i])))
+        });
         if light.escalated {
             truth.escalate();
         }

@@ -33,6 +33,15 @@ use super::twofold::Twofold;
 /// The closed form does while its bound is at most this share of the value, 1.5e-11.
 const ACCURACY: f64 = 1.0 / (1u64 << 36) as f64;
 
+/// Where the minors of S are this share of its square, they have 2^-54 of themselves by its twofold entries.
+const ADJUGATE: f64 = 1.0 / (1u64 << 46) as f64;
+
+/// f32 ends at 1e-45.
+const FAINT: f64 = 1e-52;
+
+/// What products below f64's range may make of an irradiance.
+const UNDERFLOW: f64 = 1e-80;
+
 /// f64's unit roundoff, 2^-53.
 const EPS: f64 = f64::EPSILON / 2.0;
 
@@ -76,31 +85,56 @@ pub(super) struct Principal {
 
 impl Cone {
     /// The irradiance on a plane with normal +z; nothing where the cone is flat (`minus_det` is 0) or below.
-    pub fn irradiance(&self) -> Irradiance {
+    ///
+    /// `adjugate` gives that of S, in the order of `dual`, from what S was made of. It is asked only where minors of S would
+    /// cancel, beyond an aspect of 2^23 or so: entries of 106 bits hold nothing of what is 2^-106 of the largest.
+    pub fn irradiance(&self, adjugate: impl FnOnce() -> [Twofold; 6]) -> Irradiance {
         let below = self.dual[2].value() <= 0.0 && self.towards.z <= 0.0;
         // With smaller products others leave the range of f64, and the irradiance is below 1e-80.
         if below || !(self.minus_det > 1e-200) {
             return Irradiance::NOTHING;
         }
-        let principal = self.principal();
+        let mut principal = self.principal(self.minors());
+        let size = principal.e1 + principal.l;
+        // Also where that is not a number.
+        if !(principal.gap > ADJUGATE * size * size) {
+            principal = self.principal(adjugate());
+        }
         if self.dual[2].value() <= 0.0 {
             let factor = libm::sqrt(self.minus_det / principal.l / principal.gap);
             let value = (factor * principal.axes.z_axis.z).min(1.0);
             let gradient = principal.gradient(0.0, TAU);
             return Irradiance { value, bound: 24.0 * EPS * value, escalated: false, gradient };
         }
+        // Where S does not tell e1 from 0, this is the most that the whole cone may give, and beneath all of f32.
+        let most = libm::sqrt(self.minus_det / principal.l) / principal.l;
+        if most < FAINT && !(principal.e1 > ADJUGATE * principal.l) {
+            return Irradiance { bound: most, ..Irradiance::NOTHING };
+        }
         principal.clipped(self.dual[2].value())
     }
 
-    pub(super) fn principal(&self) -> Principal {
+    /// The adjugate of S by its minors.
+    pub fn minors(&self) -> [Twofold; 6] {
+        let [x, y, z, xy, xz, yz] = self.dual;
+        [
+            y * z - yz * yz,
+            x * z - xz * xz,
+            x * y - xy * xy,
+            xz * yz - xy * z,
+            xy * yz - xz * y,
+            xy * xz - yz * x,
+        ]
+    }
+
+    pub(super) fn principal(&self, adjugate: [Twofold; 6]) -> Principal {
         let [xx, yy, zz, xy, xz, yz] = self.dual;
+        let [axx, ayy, azz, axy, axz, ayz] = adjugate;
         let c2 = xx + yy + zz;
-        let c1 = (xx * yy - xy * xy) + (xx * zz - xz * xz) + (yy * zz - yz * yz);
-        let l = positive_root(c2, c1, self.minus_det);
-        let (x, y, z) = (xx + l, yy + l, zz + l);
+        let l = positive_root(c2, axx + ayy + azz, self.minus_det);
         // The adjugate of S + l: (l + e1)(l + e3) W3 W3^T.
-        let (axx, ayy, azz) = (y * z - yz * yz, x * z - xz * xz, x * y - xy * xy);
-        let (axy, axz, ayz) = (xz * yz - xy * z, xy * yz - xz * y, xy * xz - yz * x);
+        let (axx, ayy, azz) = (axx + (yy + zz + l) * l, ayy + (xx + zz + l) * l, azz + (xx + yy + l) * l);
+        let (axy, axz, ayz) = (axy - xy * l, axz - xz * l, ayz - yz * l);
         let gap = (axx + ayy + azz).value();
         let (dx, dy, dz) = (axx.value(), ayy.value(), azz.value());
         let column = if dx >= dy && dx >= dz {
@@ -132,7 +166,21 @@ impl Cone {
             let sin = libm::sqrt(0.5 * (1.0 - tau / h));
             (0.5 * s12 / (h * sin), sin)
         };
-        let axes = DMat3::from_cols(cos * b1 + sin * b2, cos * b2 - sin * b1, w3);
+        let mut axes = DMat3::from_cols(cos * b1 + sin * b2, cos * b2 - sin * b1, w3);
+        // The heights of the axes decide where the horizon cuts a needle. By S W1 = e1 W1 the small components of W1 have
+        // e3 + l over e1 less rounding than those of a unit vector, W3 has all its digits, and W2 is across both.
+        if e1 > l && h > 0.3 * e1 {
+            let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]].map(|row| row.map(|entry| entry.value()));
+            let w1 = &mut axes.x_axis;
+            for (i, row) in rows.iter().enumerate() {
+                if w1[i].abs() < 0.5 {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    w1[i] = (row[j] * w1[j] + row[k] * w1[k]) / (e1 - row[i]);
+                }
+            }
+            let across = w3.cross(axes.x_axis);
+            axes.y_axis = if across.dot(axes.y_axis) < 0.0 { -across } else { across };
+        }
         Principal { e1, e3: (self.minus_det / l / e1).min(e1), l, gap, axes }
     }
 }
@@ -191,7 +239,10 @@ impl Principal {
         let ix = -b * c * d * if z.abs() > 1e-9 { libm::asinh(z) / z } else { 1.0 };
         let g = 2.0 * sin0 * sin_d / small;
         let y = g * libm::sqrt(k * small);
-        let x = 1.0 + k / small * (cos0 * cos0 - sin_d * sin_d);
+        // cos^2 u0 - sin^2 d = cos^2 d - sin^2 u0, whichever has the smaller terms.
+        let squares =
+            if sin0.abs() < 0.5 { (cos_d - sin0) * (cos_d + sin0) } else { (cos0 - sin_d) * (cos0 + sin_d) };
+        let x = 1.0 + k / small * squares;
         let iy = -a * c * g * if y.abs() > 1e-9 * x { libm::atan2(y, x) / y } else { 1.0 / x };
         let turn = libm::atan2(
             libm::sqrt(big * small) * 2.0 * sin_d * cos_d,
@@ -215,7 +266,7 @@ impl Principal {
         }
         let (value, resolved) = self.area(swing, (cos0, sin0), (cos_d, sin_d));
         // Poles closer to the segment than f64 tells angles apart: nothing is promised.
-        let bound = if resolved { 64.0 * EPS * value } else { value };
+        let bound = if resolved { 64.0 * EPS * value + UNDERFLOW } else { value };
         Irradiance { value, bound, escalated: true, gradient }
     }
 
@@ -229,9 +280,7 @@ impl Principal {
         let along = e1 * sin0 * sin0 + e3 * cos0 * cos0;
         let skew = sin0 * cos0 * (e3 - e1);
         let d = libm::atan2(sin_d, cos_d);
-        let line = |angle: f64| {
-            let (sin, cos) = libm::sincos(angle);
-            let height = 2.0 * libm::sin(0.5 * (d + angle)) * libm::sin(0.5 * (d - angle));
+        let line = |sin: f64, cos: f64, height: f64| {
             // |p|^2 = (s^2 + delta)/along with s linear along the line.
             let delta = l * along + cos * cos * e1 * e3;
             let (s1, s2) = (skew * cos - along * sin, skew * cos + along * sin);
@@ -249,12 +298,25 @@ impl Principal {
             };
             height * sin * along / (2.0 * delta * root) * sum
         };
-        let u0 = libm::atan2(sin0, cos0);
         let rim = libm::asinh(libm::sqrt((l + e3) / (e1 - e3)));
         let lines = libm::asinh(libm::sqrt(l * along / (e1 * e3)));
-        let poles = [(0.5 * PI - u0, rim), (0.5 * PI + u0, rim), (0.5 * PI, lines)];
         let mut panels = PANELS;
-        let sum = graded(0.0, d, &poles, HALVINGS, &mut panels, &line);
+        // From both ends, so that what is close to either is told from it.
+        let poles = [(half_turn(cos0, sin0), rim), (half_turn(cos0, -sin0), rim), (0.5 * PI, lines)];
+        let top = graded(0.0, 0.5 * d, &poles, HALVINGS, &mut panels, &|angle| {
+            let (sin, cos) = libm::sincos(angle);
+            line(sin, cos, 2.0 * libm::sin(0.5 * (d + angle)) * libm::sin(0.5 * (d - angle)))
+        });
+        let (cos1, sin1) = (cos0 * cos_d + sin0 * sin_d, cos0 * sin_d - sin0 * cos_d);
+        let (cos2, sin2) = (cos0 * cos_d - sin0 * sin_d, sin0 * cos_d + cos0 * sin_d);
+        let poles =
+            [(half_turn(-cos2, sin2), rim), (half_turn(-cos1, sin1), rim), (half_turn(-cos_d, sin_d), lines)];
+        let bottom = graded(0.0, 0.5 * d, &poles, HALVINGS, &mut panels, &|rest| {
+            let (sin, cos) = libm::sincos(rest);
+            let height = 2.0 * libm::sin(d - 0.5 * rest) * libm::sin(0.5 * rest);
+            line(sin_d * cos - cos_d * sin, cos_d * cos + sin_d * sin, height)
+        });
+        let sum = top + bottom;
         (libm::sqrt(e1 * e3 * l) * swing / PI * sum, panels > 0)
     }
 
@@ -266,18 +328,28 @@ impl Principal {
         let &Principal { e1, e3, l, axes, .. } = self;
         let (a, b, c) = (libm::sqrt(e1), libm::sqrt(e3), libm::sqrt(l));
         let (root_a, root_b) = (libm::sqrt(l + e1), libm::sqrt(l + e3));
+        let (over_a, over_b) = (1.0 / root_a, 1.0 / root_b);
+        let (over_1, over_2, over_3) = (1.0 / a, 1.0 / b, -1.0 / c);
+        let (up, across, middle) = (axes.x_axis.z * a, axes.y_axis.z * b, axes.z_axis.z * c);
         let mut moments = [0.0; 6];
-        visit(&POINTS_16, start, start + turn, |angle, weight| {
-            let (sin, cos) = angle.sin_cos();
-            let (x, y) = (cos / root_a, sin / root_b);
+        let mut add = |cos: f64, sin: f64, weight: f64| {
+            let (x, y) = (cos * over_a, sin * over_b);
             let inverse = libm::sqrt(x * x + y * y);
-            let height = (axes.x_axis.z * a * x + axes.y_axis.z * b * y) / inverse + axes.z_axis.z * c;
-            let (m1, m2, m3) = (x / a, y / b, -inverse / c);
+            let height = (up * x + across * y) / inverse + middle;
+            let (m1, m2, m3) = (x * over_1, y * over_2, inverse * over_3);
             let products = [m1 * m1, m2 * m2, m3 * m3, m1 * m2, m1 * m3, m2 * m3];
             for (moment, product) in moments.iter_mut().zip(products) {
                 *moment += weight * height * product;
             }
-        });
+        };
+        // Gauss's points lie in pairs about the middle.
+        let (sin_middle, cos_middle) = libm::sincos(start + 0.5 * turn);
+        for (abscissa, weight) in POINTS_16 {
+            let (sin, cos) = libm::sincos(0.5 * turn * abscissa);
+            let weight = 0.5 * turn * weight;
+            add(cos_middle * cos - sin_middle * sin, sin_middle * cos + cos_middle * sin, weight);
+            add(cos_middle * cos + sin_middle * sin, sin_middle * cos - cos_middle * sin, weight);
+        }
         let scale = a * b * c / (TAU * root_a * root_b);
         let [xx, yy, zz, xy, xz, yz] = moments.map(|moment| moment * scale);
         let local = DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
@@ -299,13 +371,19 @@ fn arc_over_chord(x: f64) -> f64 {
     x * square / 6.0 * sum
 }
 
-/// Halvings of a panel: a pole 2^-48 off the real axis is met with what f64 can say of it.
-const HALVINGS: u32 = 48;
+/// Halvings of a panel: a pole 2^-160 off the real axis is met where it lies next to an end at 0, about which f64 can say
+/// as much; elsewhere its place is good to 2^-53.
+const HALVINGS: u32 = 160;
 /// Panels of an integral: three poles take at most four a halving each. More are asked for only where a segment is so
 /// short that all of it seems to lie on a pole.
 const PANELS: u32 = 3 * 4 * HALVINGS;
 
-/// The integral of `f` over low..high, which is singular at the poles (x + k pi) + i y only.
+/// The angle of (x, y) or of (-x, -y), in -pi/2..pi/2.
+fn half_turn(y: f64, x: f64) -> f64 {
+    if x < 0.0 { libm::atan2(-y, -x) } else { libm::atan2(y, x) }
+}
+
+/// The integral of `f` over low..high within 0..pi, which is singular at the poles (x + k pi) + i y only, |x| <= pi/2.
 ///
 /// A panel whose middle is 1.8 half lengths away from every pole has none within the ellipse of semi-axes' sum 3.3, and
 /// 16 points are good to 3.3^-32 = 3e-17 of what is largest in that.
@@ -321,7 +399,7 @@ fn graded(
 ) -> f64 {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     let near = |&(x, y): &(f64, f64)| {
-        let off = (middle - x) - PI * libm::round((middle - x) / PI);
+        let off = if middle - x > 0.5 * PI { middle - x - PI } else { middle - x };
         off * off + y * y < 3.24 * half * half
     };
     if halvings == 0 || *panels == 0 || !poles.iter().any(near) {

@@ -37,7 +37,7 @@ pub struct SolidAngle {
 impl Cone {
     /// The solid angle; `minus_det` is positive.
     pub fn solid_angle(&self) -> SolidAngle {
-        let principal = self.principal();
+        let principal = self.principal(self.minors());
         let (e1, e3, l) = (principal.e1, principal.e3, principal.l);
         let value = complete(libm::sqrt(self.minus_det), l, (l + e1) + (l + e3), principal.gap);
         let [m1, m2, m3] = moments(e1, e3, l);

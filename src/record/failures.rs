@@ -93,7 +93,7 @@ fn optional<T>(cells: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
 }
 
 /// Writes all evidence to a new file at `path`.
-pub(super) fn write(path: &Path, evidence: &[Evidence]) -> Result<(), Error> {
+pub fn write(path: &Path, evidence: &[Evidence]) -> Result<(), Error> {
     let file =
         File::create(path).map_err(|source| Error::Io { action: "write", path: path.to_owned(), source })?;
     write_to(file, evidence).map_err(|source| Error::Parquet { path: path.to_owned(), source })

@@ -11,7 +11,7 @@ use super::bits::{self, Bits};
 use super::{Error, Evidence, Run, SCHEMA, failures};
 
 const RUN: &str = "run.json";
-const FAILURES: &str = "failures.parquet";
+pub(super) const FAILURES: &str = "failures.parquet";
 const BITS: &str = "bits.parquet";
 /// A folder of modules, in runs of shaders that are not built in.
 const SHADERS: &str = "shaders";

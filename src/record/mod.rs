@@ -8,6 +8,7 @@ mod failures;
 mod folder;
 mod hunt;
 mod number;
+mod recall;
 mod schema;
 mod summarize;
 
@@ -16,9 +17,11 @@ use std::path::PathBuf;
 use crate::audit::{Failure, Fingerprint};
 
 pub use bits::Bits;
+pub use failures::write as write_failures;
 pub use folder::{Folder, Recorded, default_path, module_path, read};
 pub use hunt::{Find, Hunt, hunt};
-pub use number::parse_f32;
+pub use number::{decimal_f32, hex_f32, parse_f32};
+pub use recall::{RecordedFailure, failures};
 pub use schema::{
     Audit, Bin, Buckets, Distribution, Extremes, Family, Host, Landmark, Oracle, Output, OutputAudit,
     Program, Rate, Result, Run, SCHEMA, Scenario, Settings, Specimen, Variant, Visible, Worst,
@@ -52,6 +55,8 @@ pub enum Error {
     Parquet { path: PathBuf, source: parquet::errors::ParquetError },
     #[error("{} holds no run (no run.json)", path.display())]
     NoRun { path: PathBuf },
+    #[error("{} holds no failures (no failures.parquet, which run, audit, hunt and minimize write)", path.display())]
+    NoFailures { path: PathBuf },
     #[error("{} is not a run that this rootq reads: {message}", path.display())]
     Unreadable { path: PathBuf, message: String },
     /// The user's table is at fault; `place` is `FILE`, `FILE:LINE` or `FILE, row N`.

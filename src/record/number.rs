@@ -16,6 +16,33 @@ pub fn parse_f32(text: &str) -> Option<f32> {
     Some(if negative { -value } else { value })
 }
 
+/// The shortest decimal that [`parse_f32`] reads back to the same bits: `0.25`, `1.1e-7`, `NaN`.
+pub fn decimal_f32(value: f32) -> String {
+    let size = value.abs();
+    if size == 0.0 || (1e-3..1e6).contains(&size) || !size.is_finite() {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// The exact value as a hexadecimal float that [`parse_f32`] reads: `0x1.8p-10`, `0x0.000002p-126`, `nan`, `-inf`.
+pub fn hex_f32(value: f32) -> String {
+    let sign = if value.is_sign_negative() { "-" } else { "" };
+    let (exponent, fraction) = (value.to_bits() >> 23 & 0xff, value.to_bits() & 0x7f_ffff);
+    let (whole, exponent) = match exponent {
+        0xff => return if fraction == 0 { format!("{sign}inf") } else { "nan".to_owned() },
+        0 if fraction == 0 => return format!("{sign}0x0p+0"),
+        0 => (0, -126),
+        _ => (1, exponent as i32 - 127),
+    };
+    // 23 bits are six digits but for the last bit.
+    let digits = format!("{:06x}", fraction << 1);
+    let digits = digits.trim_end_matches('0');
+    let point = if digits.is_empty() { "" } else { "." };
+    format!("{sign}0x{whole}{point}{digits}p{exponent:+}")
+}
+
 /// `h.hhhhp[+-]d`, the exponent optional.
 fn hexadecimal_f32(text: &str) -> Option<f32> {
     let (digits, exponent) = match text.split_once(['p', 'P']) {
@@ -90,6 +117,20 @@ mod tests {
     }
 
     #[test]
+    fn hexadecimal_is_written_short() {
+        for (value, expected) in [
+            (3.0, "0x1.8p+1"),
+            (-0.5, "-0x1p-1"),
+            (0.0, "0x0p+0"),
+            (f32::from_bits(1), "0x0.000002p-126"),
+            (f32::MAX, "0x1.fffffep+127"),
+            (f32::NEG_INFINITY, "-inf"),
+        ] {
+            assert_eq!(hex_f32(value), expected);
+        }
+    }
+
+    #[test]
     fn decimal_is_rounded_once() {
         // Half-way between two f32 but for the last digit; through f64 it would round down.
         assert_eq!(parse_f32("1.00000005960464477540"), Some(1.0 + f32::EPSILON));
@@ -103,6 +144,15 @@ mod tests {
             let text = format!("0x{:x}p{}", value.to_bits() & 0x7f_ffff | if bits >> 23 == 0 { 0 } else { 0x80_0000 },
                 (bits >> 23).max(1) as i32 - 150);
             prop_assert_eq!(parse_f32(&text), Some(value));
+        }
+
+        #[test]
+        fn what_is_written_is_read(bits in any::<u32>()) {
+            let value = f32::from_bits(bits);
+            for text in [hex_f32(value), decimal_f32(value)] {
+                let read = parse_f32(&text).unwrap();
+                prop_assert!(read.to_bits() == bits || (read.is_nan() && value.is_nan()), "{}", text);
+            }
         }
 
         /// The rounding of f64 to f32 by the processor is the independent arithmetic here.

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::hunt::Hunt;
 use crate::audit::Verdict;
@@ -122,7 +122,8 @@ pub struct Oracle {
     pub escalations: u64,
     /// Configurations whose bound stayed above 1/16 of the f32 spacing.
     pub uncertified: u64,
-    /// Largest bound in units of the f32 spacing.
+    /// Largest bound in units of the f32 spacing; `null` if infinite.
+    #[serde(deserialize_with = "null_is_infinite")]
     pub worst_bound: f64,
 }
 
@@ -258,9 +259,12 @@ pub struct Specimen {
     /// The error, as the field says that holds it.
     pub size: f64,
     pub index: u64,
-    /// In the order of input columns.
+    /// In the order of input columns; `null` where infinite or not a number.
+    #[serde(deserialize_with = "null_is_nan")]
     pub inputs: Vec<f32>,
     pub output: Vec<Option<f32>>,
+    /// `null` where infinite or not a number.
+    #[serde(deserialize_with = "null_is_nan")]
     pub truth: Vec<f64>,
     /// The permitted error; `null` where nothing is promised.
     pub limit: Option<f64>,
@@ -329,10 +333,44 @@ pub struct Bin {
     pub beyond: Vec<u64>,
 }
 
+/// JSON has no infinities: they are written as `null`.
+fn null_is_infinite<'de, D: Deserializer<'de>>(deserializer: D) -> std::result::Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+}
+
+fn null_is_nan<'de, T, D>(deserializer: D) -> std::result::Result<Vec<T>, D::Error>
+where
+    T: Deserialize<'de> + From<f32>,
+    D: Deserializer<'de>,
+{
+    let values: Vec<Option<T>> = Vec::deserialize(deserializer)?;
+    Ok(values.into_iter().map(|value| value.unwrap_or_else(|| T::from(f32::NAN))).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::bench::Coherence;
+
+    /// What JSON cannot hold is written as `null`, and a record with it is read all the same.
+    #[test]
+    fn numbers_that_json_lacks_are_read_back() {
+        let oracle = Oracle { escalations: 1, uncertified: 1, worst_bound: f64::INFINITY };
+        let text = serde_json::to_string(&oracle).unwrap();
+        assert!(text.contains("null"), "{text}");
+        assert_eq!(serde_json::from_str::<Oracle>(&text).unwrap(), oracle);
+        let specimen = Specimen {
+            size: 1.0,
+            index: 2,
+            inputs: vec![1.5, f32::INFINITY],
+            output: vec![None],
+            truth: vec![f64::NAN],
+            limit: None,
+        };
+        let text = serde_json::to_string(&specimen).unwrap();
+        let read: Specimen = serde_json::from_str(&text).unwrap();
+        assert!(read.inputs[0] == 1.5 && read.inputs[1].is_nan() && read.truth[0].is_nan());
+    }
 
     /// A timing as version 1 of the schema first had it.
     #[test]

@@ -5,7 +5,7 @@ use comfy_table::{Cell, Color};
 use super::numbers::{percent, short};
 use crate::audit::Verdict;
 use crate::numeric::spacing::f32_spacing;
-use crate::record::{Audit, Family, Specimen};
+use crate::record::{Audit, Family, Specimen, decimal_f32};
 
 /// The quantity's name in records.
 const QUANTITY: &str = "builtin";
@@ -59,12 +59,8 @@ pub(super) fn cells(audit: &Audit) -> Vec<Cell> {
 
 /// The inputs in nine digits, which read back to the same bits.
 fn place(specimen: &Specimen) -> String {
-    let inputs: Vec<String> = specimen.inputs.iter().map(|value| number(*value)).collect();
+    let inputs: Vec<String> = specimen.inputs.iter().map(|value| decimal_f32(*value)).collect();
     inputs.join(" ")
-}
-
-fn number(value: f32) -> String {
-    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
 }
 
 pub(super) const LEGEND: &str = "\

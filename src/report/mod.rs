@@ -6,6 +6,8 @@ mod hunt;
 mod numbers;
 mod pick;
 mod probe;
+mod replay;
+mod shrunk;
 mod table;
 mod timing;
 
@@ -13,4 +15,6 @@ pub use compare::{Form, compare, github};
 pub use hunt::hunt;
 pub use pick::pick;
 pub use probe::probes;
+pub use replay::{replay, story};
+pub use shrunk::shrunk;
 pub use table::{devices, run};

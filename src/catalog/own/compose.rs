@@ -103,9 +103,16 @@ impl Shader {
         Ok(())
     }
 
-    /// All definitions: the adapter's, the variant's, the command line's.
+    /// What the shader's own text is preprocessed with: renamed names and definitions.
     fn defines(&self, target: &Target<'_>) -> BTreeMap<String, String> {
         let mut defines = self.adapter.rename.clone();
+        defines.extend(self.definitions(target));
+        defines
+    }
+
+    /// All definitions: the adapter's, the variant's, the command line's.
+    fn definitions(&self, target: &Target<'_>) -> BTreeMap<String, String> {
+        let mut defines = BTreeMap::new();
         for more in [&self.adapter.defines, target.defines, &self.defines] {
             defines.extend(more.iter().map(|(name, value)| (name.clone(), value.to_string())));
         }
@@ -163,6 +170,12 @@ impl Shader {
         ];
         sections.extend(wrapper);
         sections.push(Section::new(GENERATED, tail));
+        // The adapter's text may use the definitions, too; the generated part must not meet them.
+        let words = self.definitions(target);
+        let define: String = words.iter().map(|(name, value)| format!("#define {name} {value}\n")).collect();
+        let forget: String = words.keys().map(|name| format!("#undef {name}\n")).collect();
+        sections.insert(2, Section::new(GENERATED, define));
+        sections.insert(sections.len() - 1, Section::new(GENERATED, forget));
         for Section { name, text: part } in sections {
             _ = write!(text, "#line 1 \"{name}\"\n{part}\n");
         }
@@ -192,7 +205,8 @@ impl Shader {
             .map(|token| token.text)
             .chain([name])
             .collect();
-        let neutral = neutral(outline, self.language, &words, &self.adapter)
+        let aside = Some(family).filter(|_| wraps);
+        let neutral = neutral(outline, self.language, &words, aside, &self.adapter)
             .map_err(|missing| self.missing(outline, &missing))?;
         Ok((neutral, sections))
     }

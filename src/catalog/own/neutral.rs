@@ -17,8 +17,13 @@ use super::tokens::{Kind, Token, close};
 use crate::catalog::Language;
 use crate::catalog::kernel::TableForm;
 
-/// What the shader's own entry point is called from now on, if anything calls it.
-pub(super) const THEIR_MAIN: &str = "rootq_their_main";
+/// What a shader's function is called from now on whose name the generated parts need.
+pub(super) fn set_aside(name: &str) -> String {
+    format!("rootq_their_{name}")
+}
+
+/// The shader's own entry point, in the way of ours.
+pub(super) const MAIN: &str = "main";
 
 /// A text without a pipeline.
 #[derive(Debug, PartialEq, Eq)]
@@ -84,11 +89,13 @@ enum Role {
     Memory,
 }
 
-/// Makes the text neutral for a caller whose own text has the words `roots`.
+/// Makes the text neutral for a caller whose own text has the words `roots`. Functions called `aside` or `main` get
+/// [other names](set_aside).
 pub(super) fn neutral(
     outline: &Outline<'_>,
     language: Language,
     roots: &[&str],
+    aside: Option<&str>,
     adapter: &Adapter,
 ) -> Result<Neutral, Missing> {
     let kept = outline.reachable(roots.iter().copied());
@@ -108,11 +115,14 @@ pub(super) fn neutral(
                 }
             }
             ItemKind::Function { .. } if !kept => edits.blank(outline.span(item)),
-            ItemKind::Function { name, .. } => {
+            ItemKind::Function { .. } => {
                 strip_attributes(outline, item, language, &mut edits);
-                if outline.tokens[*name].is("main") {
-                    let name = &outline.tokens[*name];
-                    edits.replace(name.at..name.end(), THEIR_MAIN);
+                let tokens = outline.item_tokens(item);
+                for (at, token) in tokens.iter().enumerate() {
+                    let called = tokens.get(at + 1).is_some_and(|next| next.is("("));
+                    if called && (token.is(MAIN) || aside == Some(token.text)) {
+                        edits.replace(token.at..token.end(), &set_aside(token.text));
+                    }
                 }
             }
             ItemKind::Declaration => interfaces.extend(match language {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::adapter::{Adapter, Up};
-use super::neutral::{Read, THEIR_MAIN};
+use super::neutral::{MAIN, Read, set_aside};
 use crate::catalog::generate::{hlsl, wgsl};
 use crate::catalog::kernel::{TableBinding, TableForm};
 use crate::catalog::{Field, Language, Signature, Type};
@@ -63,7 +63,8 @@ pub(super) fn wrapper(
     if let Some(callee) = callee {
         let parameters = || signature.parameters.iter().map(|field| field.name.to_owned()).collect();
         let arguments = adapter.arguments.clone().unwrap_or_else(parameters);
-        let name = if callee.name == "main" { THEIR_MAIN } else { callee.name };
+        let taken = callee.name == MAIN || callee.name == signature.function;
+        let name = if taken { set_aside(callee.name) } else { callee.name.to_owned() };
         let call = format!("{name}({});\n", arguments.join(", "));
         let result = match (language, &callee.returns) {
             (Language::Wgsl, _) if callee.value => "let r = ".to_owned(),

@@ -2,7 +2,7 @@ use super::*;
 
 fn neutral_text(language: Language, text: &str, root: &str, adapter: &str) -> Result<Neutral, Missing> {
     let adapter: Adapter = toml::from_str(adapter).unwrap();
-    neutral(&Outline::of(text), language, &[root], &adapter)
+    neutral(&Outline::of(text), language, &[root], None, &adapter)
 }
 
 /// The text with runs of blanks as one, and none at the ends of lines.
@@ -109,4 +109,19 @@ fn wgsl_resources_become_private() {
     );
     let entry = neutral_text(Language::Wgsl, text, "main", adapter).unwrap();
     assert_eq!(squeezed(&entry.text)[6], "fn rootq_their_main( uv: vec2f) -> vec4f {");
+}
+
+#[test]
+fn a_name_that_is_needed_is_given_up() {
+    let text = "uniform float gain;\nfloat f(float x);\nfloat f(float x) { return x > 1.0 ? gain : 2.0 * f(); }\n\
+                float f() { return 1.0; }\n";
+    let adapter: Adapter = toml::from_str("[uniforms]\ngain = \"2.0\"").unwrap();
+    let neutral = neutral(&Outline::of(text), Language::Glsl, &["f"], Some("f"), &adapter).unwrap();
+    let expected = [
+        "float gain;",
+        "float rootq_their_f(float x);",
+        "float rootq_their_f(float x) { return x > 1.0 ? gain : 2.0 * rootq_their_f(); }",
+        "float rootq_their_f() { return 1.0; }",
+    ];
+    assert_eq!(squeezed(&neutral.text), expected);
 }
