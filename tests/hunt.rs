@@ -140,8 +140,9 @@ fn an_interrupted_hunt_is_a_whole_record() {
 
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("hunt");
+    // Five hunts of seconds each.
     let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("rootq"))
-        .args(["hunt", "ellipse_axes/naive", "--seconds", "300", "--out"])
+        .args(["hunt", "ellipse_axes/naive", "--evaluations", "1M", "--out"])
         .arg(&out)
         .env("VK_DRIVER_FILES", drivers::both().unwrap())
         .env_remove("ROOTQ_VULKAN_LOADER")
@@ -149,15 +150,15 @@ fn an_interrupted_hunt_is_a_whole_record() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    let mut first = String::new();
-    let mut stderr = BufReader::new(child.stderr.take().unwrap());
-    stderr.read_line(&mut first).unwrap();
-    assert!(first.starts_with("device: "), "{first}");
-    std::thread::sleep(std::time::Duration::from_secs(1));
+    let mut stderr = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+    // The first of them is done, the next under way.
+    assert!(stderr.any(|line| line == "done: ellipse_axes/naive . scene"));
     let killed = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(killed.success());
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
-    assert!(record(&out)["evaluations"].as_u64().unwrap() > 0);
+    assert_eq!(record(&out)["evaluations"], 1_000_000);
+    let told: Vec<String> = stderr.collect();
+    assert!(told.iter().any(|line| line.starts_with("interrupted; what was found so far")), "{told:?}");
     assert!(String::from_utf8(output.stdout).unwrap().contains("worst hunted"));
 }

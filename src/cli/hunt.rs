@@ -104,6 +104,9 @@ pub(super) fn hunt(arguments: &Arguments, stop: &AtomicBool) -> Result<Outcome> 
         }
     }
     machine.check_validation()?;
+    if stop.load(Ordering::Relaxed) && evidence.is_empty() {
+        bail!("interrupted");
+    }
 
     let run = record::Run {
         schema: record::SCHEMA,
