@@ -40,6 +40,15 @@ impl Setting {
     pub const STREAMING: Setting = Setting { regime: Regime::Streaming, inputs: Coherence::Divergent };
     pub const COHERENT: Setting = Setting { regime: Regime::Arithmetic, inputs: Coherence::Coherent };
     pub const DIVERGENT: Setting = Setting { regime: Regime::Arithmetic, inputs: Coherence::Divergent };
+
+    /// What tables call it.
+    pub fn name(self) -> &'static str {
+        match (self.regime, self.inputs) {
+            (Regime::Streaming, _) => "streaming",
+            (Regime::Arithmetic, Coherence::Coherent) => "arithmetic, coherent",
+            (Regime::Arithmetic, Coherence::Divergent) => "arithmetic, divergent",
+        }
+    }
 }
 
 /// Time of one variant in one setting.

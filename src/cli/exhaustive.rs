@@ -10,6 +10,7 @@ use clap::Args;
 use indicatif::{HumanDuration, ProgressBar};
 use serde_json::{Map, Value, json};
 
+use super::progress::bar;
 use super::run::{self, Arguments, Measured, Prepared};
 use super::selection::Selected;
 use crate::audit::{MAX_CHUNK, Sweep};
@@ -222,7 +223,7 @@ fn exhaust<D: Device<Program = crate::device::vulkan::Program>>(
     let problem = family.selected.problem;
     let total = (sweep.range.end - sweep.range.start) * family.programs.len() as u64;
     let label = format!("audit {}, all bits", problem.name());
-    let bar = run::bar(total, &label, "{human_pos} of {human_len}  {elapsed}, {eta} to go");
+    let bar = bar(total, &label, "{human_pos} of {human_len}  {elapsed}, {eta} to go");
     bar.set_position(job::kept(journal, problem.name()) * family.programs.len() as u64);
     // The time to go is told from what this process does.
     bar.reset_eta();

@@ -9,7 +9,7 @@ use anyhow::{Context, Result, bail};
 use clap::{Args, Subcommand};
 
 use super::draft::{deliver, draft, is_dash};
-use super::run::bar;
+use super::progress::bar;
 use crate::fit;
 
 /// Fits tables that shaders sample.

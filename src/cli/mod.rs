@@ -16,6 +16,7 @@ mod machine;
 mod minimize;
 mod new;
 mod pick;
+mod progress;
 mod replay;
 mod run;
 mod selection;

@@ -10,8 +10,9 @@ use serde_json::json;
 
 use super::draft::{deliver, draft, is_dash};
 use super::machine::DeviceArguments;
+use super::progress::bar;
+use super::selection;
 use super::shader::ShaderArguments;
-use super::{run, selection};
 use crate::case::replay::Now;
 use crate::case::{self, Answer, Origin, Replay, Story, amber, glsl, origin};
 use crate::catalog::Catalog;
@@ -115,7 +116,7 @@ fn all(arguments: &Arguments, origin: &Origin, catalog: &Catalog, stop: &AtomicB
     let mut ids: Vec<String> = chosen.iter().map(|(_, failure)| failure.id()).collect();
     ids.sort();
     ids.dedup();
-    let bar = run::bar(chosen.len() as u64, "replay", "{human_pos} of {human_len}");
+    let bar = bar(chosen.len() as u64, "replay", "{human_pos} of {human_len}");
     for id in &ids {
         if stop.load(Ordering::Relaxed) {
             bail!("interrupted");

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::count;
 use super::machine::DeviceArguments;
+use super::progress::bar;
 use super::selection::{self, Selected};
 use super::shader::ShaderArguments;
 use super::timing::{Depth, Timed, Timer, TimingArguments};
@@ -464,15 +464,4 @@ fn measure(
     });
     eprintln!("done: {label}");
     Ok(())
-}
-
-/// A progress bar on standard error; invisible where that is no terminal.
-pub(super) fn bar(length: u64, message: &str, tail: &str) -> ProgressBar {
-    let bar = ProgressBar::new(length).with_message(message.to_owned());
-    let shape = if length == 0 { "{spinner}" } else { "{wide_bar}" };
-    if let Ok(style) = ProgressStyle::with_template(&format!("{{msg:30}} {shape} {tail}")) {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
 }

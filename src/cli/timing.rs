@@ -6,7 +6,7 @@ use std::time::Duration;
 use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
 
-use super::run::bar;
+use super::progress::bar;
 use super::selection::{self, Selected};
 use crate::audit::Chunk;
 use crate::bench::{self, Ceilings, Contest, Effort, Entrant, Ranking, Regime, Setting, Timing};

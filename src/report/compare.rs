@@ -7,7 +7,6 @@ use comfy_table::{Cell, Color};
 
 use super::numbers::percent;
 use super::table;
-use crate::bench::{Coherence, Regime, Setting};
 use crate::decide::{Breach, Change, Comparison, Row, Side};
 
 /// What a table is for.
@@ -122,7 +121,7 @@ fn rows_table(rows: &[&Row], form: Form) -> String {
                         cells.push(graded(time.change));
                         cells.extend(time.ns.map(|ns| Cell::new(format!("{ns:.2}"))));
                         cells.push(Cell::new(format!("{:.3}", time.ratio)));
-                        cells.push(Cell::new(regime(time.setting)));
+                        cells.push(Cell::new(time.setting.name()));
                     }
                     None => cells.extend(vec![Cell::new(""); 5]),
                 }
@@ -145,14 +144,6 @@ fn bits(row: &Row) -> String {
         Some(bits) if bits.differing < 1000.0 => format!("about {:.0}", bits.differing),
         // The estimate is good to a fifth.
         Some(bits) => format!("about {:.1} %", 100.0 * bits.differing / bits.configurations as f64),
-    }
-}
-
-fn regime(setting: Setting) -> &'static str {
-    match (setting.regime, setting.inputs) {
-        (Regime::Streaming, _) => "streaming",
-        (Regime::Arithmetic, Coherence::Coherent) => "arithmetic, coherent",
-        (Regime::Arithmetic, Coherence::Divergent) => "arithmetic, divergent",
     }
 }
 
@@ -215,7 +206,7 @@ pub fn github(comparison: &Comparison, breaches: Option<&[Breach]>) -> String {
             let message = format!(
                 "time is worse: {a:.2} -> {b:.2} ns, ratio {:.3} ({})",
                 time.ratio,
-                regime(time.setting)
+                time.setting.name()
             );
             annotate(&mut text, "warning", &row.file, &title, &message);
         }

@@ -6,7 +6,7 @@ use comfy_table::Cell;
 
 use super::numbers::short;
 use super::table::{lines, results, right_align, table as plain_table};
-use crate::bench::{Bound, Ceilings, Coherence, Rank, Ranking, Regime, Setting, Stop, Timing};
+use crate::bench::{Bound, Ceilings, Rank, Ranking, Setting, Stop, Timing};
 use crate::device::Clock;
 use crate::record::{Family, Result, Run, Scenario, Variant};
 
@@ -152,11 +152,7 @@ fn rankings(scenario: &Scenario) -> String {
 
 fn ranking_line(ranking: &Ranking) -> String {
     let Ranking { setting, reference, control, noise, stopped, rounds, discarded, .. } = ranking;
-    let name = match (setting.regime, setting.inputs) {
-        (Regime::Streaming, _) => "streaming",
-        (Regime::Arithmetic, Coherence::Coherent) => "coherent",
-        (Regime::Arithmetic, Coherence::Divergent) => "divergent",
-    };
+    let name = setting.name();
     let stopped = match stopped {
         Stop::Narrow => "intervals narrow",
         Stop::Time => "time up",
