@@ -160,6 +160,7 @@ const CLAIMS: &[(&str, Claim)] = &[
     ("compensated rays hit what they must, the controls do not", rays_hit),
     ("rays keep their symmetries", ray_symmetries),
     ("boxes rounded outwards enclose, the others leave out", boxes),
+    ("disks that are level but for roundings are lit as they should be", level_disks),
 ];
 
 /// `as_printed` and `naive` must fail for at least a tenth of `aspect`, or the harness is broken.
@@ -599,6 +600,64 @@ fn boxes(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
     for name in ["naive", "hypot", "axis_points"] {
         let (_, open) = audit(name, "scene")?;
         expect(open > CONFIGURATIONS / 2, || format!("{name}: only {open} not enclosing"))?;
+    }
+    Ok(())
+}
+
+/// Entries 00, 02, 20 and 22 of a Minv whose 11 is 1, centre and semi-axes of disks whose image rises by 3e-10 to 3e-5 of its
+/// length, so little that the roundings of its area, over it, are axes of their own; and truths by quadrature with 60 digits
+/// (tools/truths/ltc_disk.py).
+const LEVEL_DISKS: &[([f32; 4], [[f32; 3]; 3], f32)] = &[
+    (
+        [0.40259844, -0.072657906, 0.48815826, 0.123312734],
+        [
+            [-0.11310371, 0.008252058, 0.049048804],
+            [0.0073282868, -0.008902138, 0.004317948],
+            [-0.007669766, -0.00850579, -0.0045191534],
+        ],
+        0.035537878,
+    ),
+    (
+        [0.4348878, -0.008028344, 0.49561557, 0.013435566],
+        [
+            [-0.9121083, 1.853673, 0.5053441],
+            [0.30455065, -1.6250546, 0.18198249],
+            [1.3949819, 0.3547798, 0.8335633],
+        ],
+        9.37305e-4,
+    ),
+    (
+        [0.970772, -0.06393399, 0.17629918, 0.5957659],
+        [
+            [0.20320424, -0.60154545, 0.02182585],
+            [-0.7432672, -0.6774165, -0.07973216],
+            [-0.410237, 0.44088218, -0.044035595],
+        ],
+        0.9999996,
+    ),
+    (
+        [0.14923203, -0.026816634, 0.2596869, 0.27237722],
+        [
+            [2.4722805, -0.8965736, 0.2847718],
+            [-5.6742945, 0.12746854, -0.5585808],
+            [-0.72925967, -0.9918426, -0.07177734],
+        ],
+        0.49717855,
+    ),
+];
+
+/// What roundings add to a light's tilt must not become a length of its. 1e-4 is the family's tolerance.
+fn level_disks(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
+    let mut inputs = Vec::new();
+    for ([m00, m02, m20, m22], light, _) in LEVEL_DISKS {
+        inputs.extend([*m00, 0.0, *m02, 0.0, 1.0, 0.0, *m20, 0.0, *m22]);
+        inputs.extend(light.as_flattened());
+    }
+    for name in ["direct_exact", "secular_exact"] {
+        let outputs = evaluate(rig, &variant(catalog, &format!("ltc_disk/{name}"))?, &inputs)?;
+        for (value, (_, _, expected)) in outputs[0].iter().zip(LEVEL_DISKS) {
+            expect((value - expected).abs() <= 1e-4, || format!("{name}: {value} for {expected}"))?;
+        }
     }
     Ok(())
 }
