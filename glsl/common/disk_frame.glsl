@@ -56,10 +56,14 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     m[0] *= scale;
     m[1] *= scale;
     m[2] *= scale;
-    scale = scale_to_power(disk_longest(max(abs(c), max(abs(v1), abs(v2)))), 19);
+    float size1 = disk_longest(v1);
+    float size2 = disk_longest(v2);
+    scale = scale_to_power(max(disk_longest(c), max(size1, size2)), 19);
     c *= scale;
     v1 *= scale;
     v2 *= scale;
+    size1 *= scale;
+    size2 *= scale;
 
     vec3 C = m * c;
     vec3 V1 = m * v1;
@@ -100,7 +104,8 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     // B a3 = V1.z V2 - V2.z V1 is N turned by a right angle. N's roundings are shares of its products, and over a3 they are more
     // than B where the light is level but for roundings: there the difference itself, whose roundings are shares of the longer
     // vector.
-    float products = disk_longest(v1) * cut1 * (disk_longest(v2) * cut2) * disk_longest(max(abs(k0), max(abs(k1), abs(k2))));
+    vec2 k = max(abs(k0.xy), max(abs(k1.xy), abs(k2.xy)));
+    float products = (size1 * cut1) * (size2 * cut2) * max(k.x, k.y);
     bool flat_light = products > DISK_FLAT * f.a3 * max(long1 * cut1, long2 * cut2);
     vec2 B = flat_light ? up.x * V2.xy - up.y * V1.xy : vec2(N.y, -N.x) * inverse_a3;
     float b2 = dot(B, B);
