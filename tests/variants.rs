@@ -644,6 +644,16 @@ const LEVEL_DISKS: &[([f32; 4], [[f32; 3]; 3], f32)] = &[
         ],
         0.49717855,
     ),
+    // A needle: it is the light's area before Minv that cancels.
+    (
+        [0.3393926, -0.06730328, 0.41218576, 0.37244678],
+        [
+            [4.6923075, 0.87939805, 0.8510146],
+            [-1.0721362, -0.42878473, -0.19377667],
+            [1.3668629, 0.54697335, 0.24704525],
+        ],
+        1.41197e-11,
+    ),
 ];
 
 /// What roundings add to a light's tilt must not become a length of its. 1e-4 is the family's tolerance.

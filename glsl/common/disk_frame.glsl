@@ -23,7 +23,7 @@ const float DISK_ENDLESS = 4096.0;
 // on the light, on the side it was.
 const float DISK_TOUCHING = 1.0e-15;
 
-// A light is level if its area is this many times its rise times its longer vector.
+// A light is level if the products that make its area are this many times its rise times its longer vector.
 const float DISK_FLAT = 16.0;
 
 struct DiskFrame {
@@ -56,10 +56,14 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     m[0] *= scale;
     m[1] *= scale;
     m[2] *= scale;
-    scale = scale_to_power(disk_longest(max(abs(c), max(abs(v1), abs(v2)))), 19);
+    float size1 = disk_longest(v1);
+    float size2 = disk_longest(v2);
+    scale = scale_to_power(max(disk_longest(c), max(size1, size2)), 19);
     c *= scale;
     v1 *= scale;
     v2 *= scale;
+    size1 *= scale;
+    size2 *= scale;
 
     vec3 C = m * c;
     vec3 V1 = m * v1;
@@ -97,16 +101,18 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     float inverse_a3 = level ? 1.0 : inversesqrt(max(up_square, DISK_SMALLEST));
     up = level ? vec2(1.0, 0.0) : up * inverse_a3;
     f.a3 = level ? 0.0 : up_square * inverse_a3;
-    float n2 = dot(N, N);
-    // B a3 = V1.z V2 - V2.z V1 is N turned by a right angle. N's roundings are shares of N, and over a3 they are more than B where
-    // the light is level but for roundings: there the difference itself, whose roundings are shares of the longer vector.
-    longer = max(long1 * cut1, long2 * cut2);
-    bool flat_light = n2 > DISK_FLAT * DISK_FLAT * up_square * (longer * longer);
+    // B a3 = V1.z V2 - V2.z V1 is N turned by a right angle. N's roundings are shares of its products, and over a3 they are more
+    // than B where the light is level but for roundings: there the difference itself, whose roundings are shares of the longer
+    // vector.
+    vec2 k = max(abs(k0.xy), max(abs(k1.xy), abs(k2.xy)));
+    float products = (size1 * cut1) * (size2 * cut2) * max(k.x, k.y);
+    bool flat_light = products > DISK_FLAT * f.a3 * max(long1 * cut1, long2 * cut2);
     vec2 B = flat_light ? up.x * V2.xy - up.y * V1.xy : vec2(N.y, -N.x) * inverse_a3;
     float b2 = dot(B, B);
     float inverse_b = inversesqrt(max(b2, DISK_SMALLEST));
     B *= inverse_b;
     f.b = b2 * inverse_b;
+    float n2 = dot(N, N);
     float inverse_n = inversesqrt(max(n2, DISK_SMALLEST));
     f.a1 = up.x * dot(B, V1.xy) + up.y * dot(B, V2.xy);
     f.area = min(n2, b2) > 1.0e-36 ? n2 * inverse_n : 0.0;
