@@ -604,10 +604,12 @@ fn boxes(rig: &Rig, catalog: &Catalog) -> Result<(), String> {
     Ok(())
 }
 
-/// Entries 00, 02, 20 and 22 of a Minv whose 11 is 1, centre and semi-axes of disks whose image rises by 3e-10 to 3e-5 of its
-/// length, so little that the roundings of its area, over it, are axes of their own; and truths by quadrature with 60 digits
-/// (tools/truths/ltc_disk.py).
-const LEVEL_DISKS: &[([f32; 4], [[f32; 3]; 3], f32)] = &[
+/// Entries 00, 02, 20 and 22 of a Minv whose 11 is 1, centre and semi-axes of a disk, and the truth.
+type LevelDisk = ([f32; 4], [[f32; 3]; 3], f32);
+
+/// Disks whose image rises by 3e-10 to 3e-5 of its length, so little that the roundings of its area, over it, are axes of
+/// their own; truths by quadrature with 60 digits (tools/truths/ltc_disk.py).
+const LEVEL_DISKS: &[LevelDisk] = &[
     (
         [0.40259844, -0.072657906, 0.48815826, 0.123312734],
         [
