@@ -104,6 +104,14 @@ impl Signature {
         }
     }
 
+    /// The result's type in another language.
+    pub fn result_type_in(&self, language: Language) -> String {
+        match self.results.as_slice() {
+            [only] => language.type_name(only.ty).to_owned(),
+            _ => self.result_type(),
+        }
+    }
+
     /// The function's declaration as a variant's author writes it, without the body.
     pub fn declaration(&self) -> String {
         self.declaration_in(Language::Glsl)
@@ -111,10 +119,7 @@ impl Signature {
 
     /// The declaration in another language.
     pub fn declaration_in(&self, language: Language) -> String {
-        let result = match self.results.as_slice() {
-            [only] => language.type_name(only.ty).to_owned(),
-            _ => self.result_type(),
-        };
+        let result = self.result_type_in(language);
         let wgsl = language == Language::Wgsl;
         let parameter = |field: &Field| {
             let ty = language.type_name(field.ty);

@@ -12,7 +12,7 @@ use super::Outcome;
 use super::count;
 use super::machine::{DeviceArguments, Machine};
 use super::progress::bar;
-use super::run::{Prepared, prepare, program};
+use super::run::{Prepared, host, prepare, program};
 use super::selection;
 use super::shader::ShaderArguments;
 use crate::audit::Fingerprint;
@@ -115,11 +115,7 @@ pub(super) fn hunt(arguments: &Arguments, stop: &AtomicBool) -> Result<Outcome> 
         command: std::env::args().collect(),
         started: started.to_string(),
         seconds: start.elapsed().as_secs_f64(),
-        host: record::Host {
-            os: std::env::consts::OS.to_owned(),
-            arch: std::env::consts::ARCH.to_owned(),
-            threads: rayon::current_num_threads(),
-        },
+        host: host(),
         device: facts,
         settings: record::Settings {
             seed: arguments.seed,

@@ -299,11 +299,7 @@ pub(super) fn finish(
         command: std::env::args().collect(),
         started: started.to_string(),
         seconds: start.elapsed().as_secs_f64(),
-        host: record::Host {
-            os: std::env::consts::OS.to_owned(),
-            arch: std::env::consts::ARCH.to_owned(),
-            threads: rayon::current_num_threads(),
-        },
+        host: host(),
         device,
         settings: record::Settings {
             seed: arguments.seed,
@@ -318,6 +314,14 @@ pub(super) fn finish(
     super::print(&report::run(&run, super::colour()))?;
     eprintln!("run folder: {} ({:.0} s)", folder.display(), run.seconds);
     Ok(())
+}
+
+pub(super) fn host() -> record::Host {
+    record::Host {
+        os: std::env::consts::OS.to_owned(),
+        arch: std::env::consts::ARCH.to_owned(),
+        threads: rayon::current_num_threads(),
+    }
 }
 
 pub(super) fn program() -> record::Program {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::Main;
+use super::{Main, MatrixOrder, results};
 use crate::catalog::kernel::{
     COLUMNS_SET, INPUTS_BINDING, LOCAL_SIZE, OUTPUTS_BINDING, TABLES_SET, TableBinding, TableForm,
 };
@@ -130,8 +130,10 @@ pub(in crate::catalog) fn epilogue(signature: &Signature, main: Main) -> String 
             }
             let arguments: Vec<String> =
                 (0..signature.parameters.len()).map(|position| format!("b{position}")).collect();
-            let bits: Vec<String> =
-                results(signature).iter().map(|value| format!("floatBitsToUint({value})")).collect();
+            let bits: Vec<String> = results(signature, MatrixOrder::Columns)
+                .iter()
+                .map(|value| format!("floatBitsToUint({value})"))
+                .collect();
             _ = write!(
                 text,
                 "        r = {function}({});\n        feedback = {};\n    }}\n",
@@ -140,25 +142,11 @@ pub(in crate::catalog) fn epilogue(signature: &Signature, main: Main) -> String 
             );
         }
     }
-    for (column, value) in results(signature).iter().enumerate() {
+    for (column, value) in results(signature, MatrixOrder::Columns).iter().enumerate() {
         _ = writeln!(text, "    rootq_outputs[{column}u * rootq_stride + i] = {value};");
     }
     text.push_str("}\n");
     text
-}
-
-/// The components of the result `r`, in column order.
-fn results(signature: &Signature) -> Vec<String> {
-    let mut values = Vec::new();
-    for field in &signature.results {
-        let value = if signature.results.len() == 1 { "r".to_owned() } else { format!("r.{}", field.name) };
-        values.extend((0..field.ty.components()).map(|component| match field.ty {
-            Type::Float => value.clone(),
-            Type::Mat3 => format!("{value}[{}][{}]", component / 3, component % 3),
-            Type::Vec2 | Type::Vec3 | Type::Vec4 => format!("{value}[{component}]"),
-        }));
-    }
-    values
 }
 
 /// A function of `signature` that returns zeros: a place to put another one.
@@ -210,7 +198,7 @@ pub(in crate::catalog) fn null(signature: &Signature) -> String {
         })
         .collect();
     let mut text = format!("{} {{\n    {} r;\n", signature.declaration(), signature.result_type());
-    let results = results(signature);
+    let results = results(signature, MatrixOrder::Columns);
     for (position, result) in results.iter().enumerate() {
         let mut bits: Vec<String> = inputs
             .iter()

@@ -4,7 +4,7 @@
 
 use std::fmt::Write;
 
-use super::Main;
+use super::{Main, MatrixOrder, results};
 use crate::catalog::kernel::{
     COLUMNS_SET, INPUTS_BINDING, LOCAL_SIZE, OUTPUTS_BINDING, TABLES_SET, TableBinding,
 };
@@ -78,7 +78,7 @@ pub(in crate::catalog) fn epilogue(signature: &Signature, main: Main) -> String 
             format!("{}({})", Language::Hlsl.type_name(parameter.ty), loads.join(", "))
         })
         .collect();
-    let (function, result) = (signature.function, result_type(signature));
+    let (function, result) = (signature.function, signature.result_type_in(Language::Hlsl));
     match main {
         Main::Evaluate => {
             _ = writeln!(text, "    {result} r = {function}(\n        {});", loads.join(",\n        "));
@@ -99,8 +99,10 @@ pub(in crate::catalog) fn epilogue(signature: &Signature, main: Main) -> String 
             }
             let arguments: Vec<String> =
                 (0..signature.parameters.len()).map(|position| format!("b{position}")).collect();
-            let bits: Vec<String> =
-                results(signature).iter().map(|value| format!("asuint({value})")).collect();
+            let bits: Vec<String> = results(signature, MatrixOrder::Rows)
+                .iter()
+                .map(|value| format!("asuint({value})"))
+                .collect();
             _ = write!(
                 text,
                 "        r = {function}({});\n        feedback = {};\n    }}\n",
@@ -109,31 +111,9 @@ pub(in crate::catalog) fn epilogue(signature: &Signature, main: Main) -> String 
             );
         }
     }
-    for (column, value) in results(signature).iter().enumerate() {
+    for (column, value) in results(signature, MatrixOrder::Rows).iter().enumerate() {
         _ = writeln!(text, "    rootq_outputs[{column}u * rootq_stride + i] = {value};");
     }
     text.push_str("}\n");
     text
-}
-
-/// The type of the function's result.
-pub(in crate::catalog) fn result_type(signature: &Signature) -> String {
-    match signature.results.as_slice() {
-        [only] => Language::Hlsl.type_name(only.ty).to_owned(),
-        _ => signature.result_type(),
-    }
-}
-
-/// The components of the result `r`, in column order.
-fn results(signature: &Signature) -> Vec<String> {
-    let mut values = Vec::new();
-    for field in &signature.results {
-        let value = if signature.results.len() == 1 { "r".to_owned() } else { format!("r.{}", field.name) };
-        values.extend((0..field.ty.components()).map(|component| match field.ty {
-            Type::Float => value.clone(),
-            Type::Mat3 => format!("{value}[{}][{}]", component % 3, component / 3),
-            Type::Vec2 | Type::Vec3 | Type::Vec4 => format!("{value}[{component}]"),
-        }));
-    }
-    values
 }

@@ -6,6 +6,8 @@ pub(super) mod glsl;
 pub(super) mod hlsl;
 pub(super) mod wgsl;
 
+use super::{Signature, Type};
+
 /// What the generated `main()` does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Main {
@@ -19,4 +21,26 @@ pub(super) enum Main {
     /// results that are not finite are bits like others. `precise`, lest the factor be taken out of a homogeneous
     /// function and most of the work out of the loop.
     Repeat,
+}
+
+/// What the first index of a matrix counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum MatrixOrder {
+    Columns,
+    Rows,
+}
+
+/// The components of the result `r`, in column order.
+fn results(signature: &Signature, order: MatrixOrder) -> Vec<String> {
+    let mut values = Vec::new();
+    for field in &signature.results {
+        let value = if signature.results.len() == 1 { "r".to_owned() } else { format!("r.{}", field.name) };
+        values.extend((0..field.ty.components()).map(|component| match (field.ty, order) {
+            (Type::Float, _) => value.clone(),
+            (Type::Mat3, MatrixOrder::Columns) => format!("{value}[{}][{}]", component / 3, component % 3),
+            (Type::Mat3, MatrixOrder::Rows) => format!("{value}[{}][{}]", component % 3, component / 3),
+            (Type::Vec2 | Type::Vec3 | Type::Vec4, _) => format!("{value}[{component}]"),
+        }));
+    }
+    values
 }

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::Main;
+use super::{Main, MatrixOrder, results};
 use crate::catalog::kernel::{
     COLUMNS_SET, INPUTS_BINDING, LOCAL_SIZE, OUTPUTS_BINDING, TABLES_SET, TableBinding,
 };
-use crate::catalog::{Language, Signature, Type};
+use crate::catalog::{Language, Signature};
 
 /// Name of the generated entry point; a shader's own may be called `main`.
 pub(in crate::catalog) const ENTRY: &str = "rootq_main";
@@ -87,12 +87,14 @@ pub(in crate::catalog) fn epilogue(signature: &Signature, main: Main) -> String 
                 "    var r: {};\n    var feedback = 0u;\n\
                  \x20   for (var k = 0u; k < rootq_range.evaluations; k = k + 1u) {{\n\
                  \x20       let factor = bitcast<f32>(0x3f800000u - (feedback & 1u));\n",
-                result_type(signature)
+                signature.result_type_in(Language::Wgsl)
             );
             let arguments: Vec<String> =
                 (0..loads.len()).map(|position| format!("a{position} * factor")).collect();
-            let bits: Vec<String> =
-                results(signature).iter().map(|value| format!("bitcast<u32>({value})")).collect();
+            let bits: Vec<String> = results(signature, MatrixOrder::Columns)
+                .iter()
+                .map(|value| format!("bitcast<u32>({value})"))
+                .collect();
             _ = write!(
                 text,
                 "        r = {function}({});\n        feedback = {};\n    }}\n",
@@ -101,31 +103,9 @@ pub(in crate::catalog) fn epilogue(signature: &Signature, main: Main) -> String 
             );
         }
     }
-    for (column, value) in results(signature).iter().enumerate() {
+    for (column, value) in results(signature, MatrixOrder::Columns).iter().enumerate() {
         _ = writeln!(text, "    rootq_outputs[{column}u * rootq_range.stride + i] = {value};");
     }
     text.push_str("}\n");
     text
-}
-
-/// The type of the function's result.
-pub(in crate::catalog) fn result_type(signature: &Signature) -> String {
-    match signature.results.as_slice() {
-        [only] => Language::Wgsl.type_name(only.ty).to_owned(),
-        _ => signature.result_type(),
-    }
-}
-
-/// The components of the result `r`, in column order.
-fn results(signature: &Signature) -> Vec<String> {
-    let mut values = Vec::new();
-    for field in &signature.results {
-        let value = if signature.results.len() == 1 { "r".to_owned() } else { format!("r.{}", field.name) };
-        values.extend((0..field.ty.components()).map(|component| match field.ty {
-            Type::Float => value.clone(),
-            Type::Mat3 => format!("{value}[{}][{}]", component / 3, component % 3),
-            Type::Vec2 | Type::Vec3 | Type::Vec4 => format!("{value}[{component}]"),
-        }));
-    }
-    values
 }

@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use super::adapter::{Adapter, Up};
 use super::neutral::{MAIN, Read, set_aside};
-use crate::catalog::generate::{hlsl, wgsl};
 use crate::catalog::kernel::{TableBinding, TableForm};
 use crate::catalog::{Field, Language, Signature, Type};
 
@@ -87,11 +86,7 @@ pub(super) fn wrapper(
         let text = if up == Up::Y && turned(field.ty) { format!("rootq_to_z({text})") } else { text };
         (key, text)
     };
-    let result_type = match language {
-        Language::Wgsl => wgsl::result_type(signature),
-        Language::Hlsl => hlsl::result_type(signature),
-        Language::Glsl | Language::Spirv => signature.result_type(),
-    };
+    let result_type = signature.result_type_in(language);
     match signature.results.as_slice() {
         [only] => {
             let (key, text) = value(only);
@@ -124,16 +119,12 @@ fn head(language: Language, signature: &Signature, up: Up) -> String {
             let parameters: Vec<String> = fields
                 .map(|field| format!("rootq_{}: {}", field.name, language.type_name(field.ty)))
                 .collect();
-            format!("fn {function}({}) -> {} {{\n", parameters.join(", "), wgsl::result_type(signature))
+            format!("fn {function}({}) -> {} {{\n", parameters.join(", "), signature.result_type_in(language))
         }
         _ => {
             let parameters: Vec<String> =
                 fields.map(|field| format!("{} {}", language.type_name(field.ty), field.name)).collect();
-            let result = if language == Language::Hlsl {
-                hlsl::result_type(signature)
-            } else {
-                signature.result_type()
-            };
+            let result = signature.result_type_in(language);
             format!("{result} {function}({}) {{\n", parameters.join(", "))
         }
     };
