@@ -10,6 +10,7 @@
 #ifndef ROOTQ_DISK_CONE
 #define ROOTQ_DISK_CONE
 
+#include "common/confocal.glsl"
 #include "common/disk_frame.glsl"
 
 struct Confocal {
@@ -22,27 +23,6 @@ struct Confocal {
     float kappa;     // p h2^2 + q h1^2
 };
 
-// The positive root x of weight/(pole + x) + z/x = 1, weight, pole, z >= 0, without cancellation.
-float confocal_root(float weight, float pole, float z)
-{
-    float m = 0.5 * (weight + z - pole);
-    float zp = z * pole;
-    float d = sqrt(m * m + zp);
-    return m > 0.0 ? m + d : zp / max(d - m, DISK_SMALLEST);
-}
-
-// A lower bound of l for p, q by the axes h1 >= h2: first with h2 = 0, an upper bound u; then, with p/(h1 + u) in the place
-// of p/(h1 + l), exactly for h2. The complement 1 - p/(h1 + u) is (q + z)/u.
-//
-// Good wherever l is far from h1 or from h2.
-float confocal_start(float p, float h1, float q, float h2, float z)
-{
-    float m = 0.5 * (p + q + z - h1);
-    float d = sqrt(m * m + (q + z) * h1);
-    float share = (m > 0.0 ? m + d : h1) / max(m > 0.0 ? q + z : d - m, DISK_SMALLEST);
-    return confocal_root(q * share, h2, z * share);
-}
-
 // One step from any l > 0: the two poles give way to one with their value and slope at l. A lower bound again, since the
 // reciprocal of their sum is concave, and exact for circles.
 float confocal_step(Confocal k, float l)
@@ -52,18 +32,6 @@ float confocal_step(Confocal k, float l)
     float pole = (k.gamma * l + 2.0 * k.product * k.alpha) * l + k.beta * k.product;
     return confocal_root(above * above * inverse, pole * inverse, k.z);
 }
-
-// The cone by what its irradiance needs.
-struct DiskCone {
-    float l;
-    float sum;        // e1 + e3
-    float product;    // e1 e3
-    float volume;     // |[C, V1, V2]|
-    float height2;    // squares of the unit mean direction's height and horizontal part
-    float level2;
-    float rise;       // v W3/sqrt(l A B) over the volume, in the notation of clipped_ellipse.glsl
-    float slant;      // sqrt(l A B) W3
-};
 
 // From l and the mean direction's part in the light's plane, over 1/((h1 + l) (h2 + l)) if its part across is the height over
 // the plane, over l: its product with the centre is then 1, and it is as long as the light is near.
@@ -88,7 +56,7 @@ DiskCone disk_cone(DiskFrame f, Confocal k, float l, vec2 plane)
     cone.volume = f.area * abs(f.cz);
     cone.height2 = up * up * inverse_w;
     cone.level2 = level2 * inverse_w;
-    cone.rise = inverse_root * (up * inverse_w) * inverse_l;
+    cone.whole = cone.volume * (inverse_root * (up * inverse_w) * inverse_l);
     cone.slant = square * inverse_root * (up * l);
     return cone;
 }

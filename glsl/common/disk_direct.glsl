@@ -3,6 +3,7 @@
 #ifndef ROOTQ_DISK_DIRECT
 #define ROOTQ_DISK_DIRECT
 
+#include "common/disk_cone.glsl"
 #include "common/disk_irradiance.glsl"
 
 // Centre and any conjugate semi-axes before `minv`.
@@ -25,7 +26,8 @@ float disk_direct(mat3 minv, vec3 center, vec3 v1, vec3 v2)
     k.gamma = on_a * on_a + on_b * on_b;
     k.kappa = dot(turned, turned);
     float l = confocal_lambda(k, confocal_start(k));
-    return disk_irradiance(f, disk_cone(f, k, l, l * vec2(f.c1, f.d) + turned));
+    float result = disk_irradiance(disk_cone(f, k, l, l * vec2(f.c1, f.d) + turned), f.a3, f.c3);
+    return f.area > 0.0 ? result : 0.0;
 }
 
 #endif

@@ -11,9 +11,8 @@
 #ifndef ROOTQ_DISK_FRAME
 #define ROOTQ_DISK_FRAME
 
+#include "common/elliptic_cone.glsl"
 #include "common/power_of_two.glsl"
-
-const float DISK_SMALLEST = 1.17549435e-38;
 
 // A light that is longer than 2^12 times what else there is seems endless, to 2^-24 of the hemisphere: it is cut there.
 const float DISK_ENDLESS = 4096.0;
