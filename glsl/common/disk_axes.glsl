@@ -20,6 +20,9 @@ const float DISK_ENDLESS = 16384.0;
 // or less, is taken for this: the point is on the light, on the side it was.
 const float DISK_TOUCHING = 1.0e-13;
 
+// 2^60: of areas, whose products with a third length would leave the range of f32 first.
+const float DISK_LARGE = 1.152921504606847e18;
+
 struct DiskAxes {
     float major;
     float minor;
@@ -27,7 +30,7 @@ struct DiskAxes {
     vec3 heights;   // of the unit vectors of these three
     float rise;     // the rim rises to height -+ rise
     float height;   // of the centre
-    bool flat_light;   // no area: the rest is undefined
+    bool dark;      // no area, or seen edge-on: the rest is undefined
 };
 
 // What the light's components are multiplied by, and the columns of m. Both products with one component get alike, so that
@@ -61,7 +64,7 @@ DiskAxes disk_axes(mat3 m, vec3 c, vec3 v1, vec3 v2)
     vec3 k0 = cross(m[1], m[2]);
     vec3 k1 = cross(m[2], m[0]);
     vec3 k2 = cross(m[0], m[1]);
-    vec3 area = cross(v1, v2);
+    vec3 area = cross(DISK_LARGE * v1, v2);
     vec3 normal = area.x * k0 + area.y * k1 + area.z * k2;
     float det = k0.z * m[0].z + k1.z * m[1].z + k2.z * m[2].z;
     float volume = dot(area, c);
@@ -90,8 +93,8 @@ DiskAxes disk_axes(mat3 m, vec3 c, vec3 v1, vec3 v2)
     float normal2 = dot(normal, normal);
     float inverse_normal = inversesqrt(max(normal2, DISK_SMALLEST));
     normal *= inverse_normal;
-    f.flat_light = normal2 < 0.5;
-    float minor = normal2 * inverse_normal * reciprocal_power_of_two(normal_scale) * inverse_long;
+    f.dark = normal2 < 0.5 || volume == 0.0 || det == 0.0;
+    float minor = normal2 * inverse_normal * (reciprocal_power_of_two(normal_scale) / DISK_LARGE) * inverse_long;
     vec3 moment = cross(c, before);
     float x = dot(C, along);
     float y = -dot(normal, moment.x * k0 + moment.y * k1 + moment.z * k2) * inverse_long;

@@ -92,7 +92,7 @@ float disk_secular(mat3 minv, vec3 center, vec3 v1, vec3 v2)
 {
     DiskAxes f = disk_axes(minv, center, v1, v2);
     float result = disk_irradiance(secular_cone(f), f.rise, f.height);
-    return f.flat_light ? 0.0 : result;
+    return f.dark ? 0.0 : result;
 }
 
 #endif
