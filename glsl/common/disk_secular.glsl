@@ -15,8 +15,9 @@
 #ifndef ROOTQ_DISK_SECULAR
 #define ROOTQ_DISK_SECULAR
 
+#define DISK_PRINCIPAL
 #include "common/confocal.glsl"
-#include "common/disk_axes.glsl"
+#include "common/disk_frame.glsl"
 #include "common/disk_irradiance.glsl"
 
 // One step from any l > 0: the two poles give way to one with their value and slope at l. A lower bound, since the
@@ -60,11 +61,11 @@ float secular_lambda(float p, float h1, float q, float h2, float z)
     return max(l, max(z, p + q + z - h1));
 }
 
-DiskCone secular_cone(DiskAxes f)
+DiskCone secular_cone(DiskFrame f)
 {
     vec3 squares = f.center * f.center;
-    float h1 = f.major * f.major;
-    float h2 = f.minor * f.minor;
+    float h1 = f.along * f.along;
+    float h2 = f.across * f.across;
     float l = secular_lambda(squares.x, h1, squares.y, h2, squares.z);
     vec3 poles = 1.0 / vec3(h1 + l, h2 + l, l);
     vec3 w = f.center * poles;
@@ -73,7 +74,7 @@ DiskCone secular_cone(DiskAxes f)
     vec3 level = cross(w, f.heights);
     float inverse = 1.0 / dot(w, w);
     float roots = sqrt(poles.x) * sqrt(poles.y);
-    float area = f.major * f.minor;
+    float area = f.along * f.across;
 
     DiskCone cone;
     cone.l = l;
@@ -90,7 +91,7 @@ DiskCone secular_cone(DiskAxes f)
 // Centre and any conjugate semi-axes before `minv`.
 float disk_secular(mat3 minv, vec3 center, vec3 v1, vec3 v2)
 {
-    DiskAxes f = disk_axes(minv, center, v1, v2);
+    DiskFrame f = disk_frame(minv, center, v1, v2);
     float result = disk_irradiance(secular_cone(f), f.rise, f.height);
     return f.dark ? 0.0 : result;
 }
