@@ -1,6 +1,7 @@
 //! Pure mathematics: spacing of floating-point formats, exact sums and products, quadrature, cubics, and the
 //! integrals that several families share.
 
+pub mod big;
 pub mod binary16;
 pub mod clipped_ellipse;
 pub mod clipped_sphere;
@@ -13,6 +14,7 @@ pub mod elliptic_arc;
 pub mod exact;
 pub mod exact3;
 pub mod gauss_legendre;
+pub mod graded_cone;
 pub mod line_integral;
 pub mod plane_rectangle;
 pub mod polygon_irradiance;
@@ -22,4 +24,5 @@ pub mod slim_silhouette;
 pub mod spacing;
 pub mod symmetric3;
 pub mod twofold;
+pub mod visible_segment;
 pub mod vulkan_limits;
