@@ -13,6 +13,7 @@ pub mod elliptic_arc;
 pub mod exact;
 pub mod exact3;
 pub mod gauss_legendre;
+pub mod half_turn;
 pub mod line_integral;
 pub mod plane_rectangle;
 pub mod polygon_irradiance;
