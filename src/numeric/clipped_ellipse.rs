@@ -27,20 +27,32 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec3};
 
-use super::gauss_legendre::{POINTS_16, visit};
 use super::twofold::Twofold;
 
 /// The closed form does while its bound is at most this share of the value, 1.5e-11.
 const ACCURACY: f64 = 1.0 / (1u64 << 36) as f64;
 
-/// Where the minors of S are this share of its square, they have 2^-54 of themselves by its twofold entries.
-const ADJUGATE: f64 = 1.0 / (1u64 << 46) as f64;
+/// What S's entries are off by, of their terms: a few of twofold arithmetic's 2^-102.
+const TWOFOLD: f64 = 1.0 / (1u128 << 96) as f64;
 
-/// f32 ends at 1e-45.
-const FAINT: f64 = 1e-52;
+/// S_zz has a sign, and 2^-42 of itself, where it is this share of its terms.
+const SIGN: f64 = 1.0 / (1u64 << 56) as f64;
 
-/// What products below f64's range may make of an irradiance.
-const UNDERFLOW: f64 = 1e-80;
+/// The most that may remain of that in an eigenvalue or an axis.
+const NOISE: f64 = 1.0 / (1u64 << 42) as f64;
+
+/// Where the horizon cuts the rim between angles 2^-30 apart, it takes 2^-150 of a round cone, and 2^-50 of any that is no
+/// longer than [`NOISE`] allows.
+const TOUCH: f64 = 1.0 / (1u64 << 60) as f64;
+
+/// The mean direction's side of the apex is that of any vector inside, by this margin.
+const SIDE: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// What may remain of changes that cancel.
+const REMAINDER: f64 = 1.0 / (1u64 << 12) as f64;
+
+/// Below this a disturbance of the rim's heights, of what is above the horizon, acts to first order.
+const SLIGHT: f64 = 1.0 / (1u64 << 10) as f64;
 
 /// f64's unit roundoff, 2^-53.
 const EPS: f64 = f64::EPSILON / 2.0;
@@ -64,13 +76,35 @@ pub struct Irradiance {
     pub bound: f64,
     /// Whether the closed form cancelled too much, and quadrature of a positive integrand took its place.
     pub escalated: bool,
-    /// G with dE = sum of G_ij dS_ij, to a few percent: a trapezoid or Gauss sum along the rim.
+    /// G with dE = sum of G_ij dS_ij, to a percent.
     pub gradient: DMat3,
 }
 
 impl Irradiance {
     const NOTHING: Irradiance =
         Irradiance { value: 0.0, bound: 0.0, escalated: false, gradient: DMat3::ZERO };
+}
+
+/// First-order changes x dE/dx of an irradiance by some inputs x: of all Minv, say, or all of the light.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Changes {
+    sum: f64,
+    absolute: f64,
+}
+
+impl Changes {
+    /// Adds those of three inputs.
+    pub fn add(&mut self, changes: DVec3) {
+        self.sum += changes.element_sum();
+        self.absolute += changes.abs().element_sum();
+    }
+
+    /// The sum of all in absolute value with those of the light, or `None` where their digits are lost: the irradiance
+    /// depends on neither's scale, and so the sums with signs are rounding.
+    pub fn size(self, light: Changes) -> Option<f64> {
+        let size = self.absolute + light.absolute;
+        (self.sum.abs() <= REMAINDER * size && light.sum.abs() <= REMAINDER * size).then_some(size)
+    }
 }
 
 /// The principal frame: eigenvalues, and the heights of the axes.
@@ -81,37 +115,43 @@ pub(super) struct Principal {
     /// (l + e1)(l + e3).
     pub(super) gap: f64,
     pub(super) axes: DMat3,
+    /// Whether the needle's long axis W1 is better than a unit vector's roundings.
+    refined: bool,
 }
 
 impl Cone {
-    /// The irradiance on a plane with normal +z; nothing where the cone is flat (`minus_det` is 0) or below.
+    /// The irradiance on a plane with normal +z; nothing where the cone is flat (`minus_det` is 0) or below. `None` where
+    /// this arithmetic may not do, by tests on what it found: [`super::graded_cone`] then does.
     ///
-    /// `adjugate` gives that of S, in the order of `dual`, from what S was made of. It is asked only where minors of S would
-    /// cancel, beyond an aspect of 2^23 or so: entries of 106 bits hold nothing of what is 2^-106 of the largest.
-    pub fn irradiance(&self, adjugate: impl FnOnce() -> [Twofold; 6]) -> Irradiance {
-        let below = self.dual[2].value() <= 0.0 && self.towards.z <= 0.0;
-        // With smaller products others leave the range of f64, and the irradiance is below 1e-80.
-        if below || !(self.minus_det > 1e-200) {
-            return Irradiance::NOTHING;
+    /// `terms` has what the terms of S_xx, S_yy and S_zz add up to in absolute value.
+    pub fn irradiance(&self, terms: DVec3) -> Option<Irradiance> {
+        let (szz, size) = (self.dual[2].value(), terms.element_sum());
+        let unsure = szz.abs() <= SIGN * terms.z;
+        let below = szz < 0.0 && self.towards.z <= 0.0;
+        if self.minus_det == 0.0 || (below && !unsure) {
+            return Some(Irradiance::NOTHING);
         }
-        let mut principal = self.principal(self.minors());
-        let size = principal.e1 + principal.l;
-        // Also where that is not a number.
-        if !(principal.gap > ADJUGATE * size * size) {
-            principal = self.principal(adjugate());
+        // Products below that leave the range of f64.
+        if !(self.minus_det > 1e-200) || (unsure && self.towards.z <= 0.0) {
+            return None;
         }
-        if self.dual[2].value() <= 0.0 {
-            let factor = libm::sqrt(self.minus_det / principal.l / principal.gap);
-            let value = (factor * principal.axes.z_axis.z).min(1.0);
-            let gradient = principal.gradient(0.0, TAU);
-            return Irradiance { value, bound: 24.0 * EPS * value, escalated: false, gradient };
+        let principal = self.principal(self.minors());
+        let Principal { e1, l, gap, axes, .. } = principal;
+        // What the entries' error is of the minors that W3 comes from, and of e1.
+        let noise = TWOFOLD * (size * size / gap + size / e1);
+        let side = axes.z_axis.dot(self.towards);
+        if !(noise <= NOISE) || !(side > SIDE * self.towards.length()) {
+            return None;
         }
-        // Where S does not tell e1 from 0, this is the most that the whole cone may give, and beneath all of f32.
-        let most = libm::sqrt(self.minus_det / principal.l) / principal.l;
-        if most < FAINT && !(principal.e1 > ADJUGATE * principal.l) {
-            return Irradiance { bound: most, ..Irradiance::NOTHING };
-        }
-        principal.clipped(self.dual[2].value())
+        let middle = l * axes.z_axis.z * axes.z_axis.z;
+        let light = if szz + TWOFOLD * terms.z <= TOUCH * middle {
+            principal.whole(noise)
+        } else if unsure {
+            None
+        } else {
+            principal.clipped(szz, noise)
+        };
+        light.filter(|light| light.bound <= ACCURACY * light.value)
     }
 
     /// The adjugate of S by its minors.
@@ -169,7 +209,8 @@ impl Cone {
         let mut axes = DMat3::from_cols(cos * b1 + sin * b2, cos * b2 - sin * b1, w3);
         // The heights of the axes decide where the horizon cuts a needle. By S W1 = e1 W1 the small components of W1 have
         // e3 + l over e1 less rounding than those of a unit vector, W3 has all its digits, and W2 is across both.
-        if e1 > l && h > 0.3 * e1 {
+        let refined = e1 > l && h > 0.3 * e1;
+        if refined {
             let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]].map(|row| row.map(|entry| entry.value()));
             let w1 = &mut axes.x_axis;
             for (i, row) in rows.iter().enumerate() {
@@ -181,7 +222,7 @@ impl Cone {
             let across = w3.cross(axes.x_axis);
             axes.y_axis = if across.dot(axes.y_axis) < 0.0 { -across } else { across };
         }
-        Principal { e1, e3: (self.minus_det / l / e1).min(e1), l, gap, axes }
+        Principal { e1, e3: (self.minus_det / l / e1).min(e1), l, gap, axes, refined }
     }
 }
 
@@ -217,196 +258,154 @@ fn positive_root(c2: Twofold, c1: Twofold, c0: f64) -> Twofold {
 }
 
 impl Principal {
+    /// A cone that is above the horizon.
+    fn whole(&self, noise: f64) -> Option<Irradiance> {
+        let &Principal { e1, e3, gap, axes, .. } = self;
+        let height = axes.z_axis.z;
+        let value = (libm::sqrt(e1 * e3 / gap) * height).min(1.0);
+        let bound = (24.0 * EPS + noise + noise / height) * value;
+        let gradient = self.gradient(&Integrals::around(self));
+        (height > 0.0).then_some(Irradiance { value, bound, escalated: false, gradient })
+    }
+
     /// The part of a cone that the horizon cuts; `szz` = S_zz > 0.
-    fn clipped(&self, szz: f64) -> Irradiance {
-        let &Principal { e1, e3, l, axes, .. } = self;
+    fn clipped(&self, szz: f64, noise: f64) -> Option<Irradiance> {
+        let &Principal { e1, e3, l, refined, axes, .. } = self;
         let heights = DVec3::new(axes.x_axis.z, axes.y_axis.z, axes.z_axis.z);
         let (a, b, c) = (libm::sqrt(e1), libm::sqrt(e3), libm::sqrt(l));
         let (up, across, middle) = (heights.x * a, heights.y * b, heights.z * c);
         // Height along the rim: middle + swing cos(u - u0), zero at u0 +- d; swing^2 - middle^2 is S_zz.
         let swing = libm::sqrt(middle * middle + szz);
-        let level = libm::hypot(up, across);
+        let level = libm::sqrt(up * up + across * across);
         let (cos0, sin0) = (up / level, across / level);
         let (cos_d, sin_d) = (-middle / swing, libm::sqrt(szz) / swing);
         let (big, small, k) = (l + e1, l + e3, e1 - e3);
+        let mean = libm::sqrt(big * small);
+
+        // How far off the heights may be, and what this is of the rim's in the unit of its narrow bends.
+        let steep = if refined { (e3 + l) / e1 } else { 1.0 };
+        let off = DVec3::new(
+            4.0 * EPS * (heights.x.abs() + steep) + noise,
+            4.0 * EPS + noise,
+            4.0 * EPS * heights.z.abs() + noise,
+        );
+        let disturbed = off.dot(DVec3::new(a, b, c)) / swing * (1.0 + big / mean);
+        if !((level - swing).abs() <= ACCURACY * swing) || !(disturbed <= SLIGHT * sin_d * sin_d) {
+            return None;
+        }
 
         let (cos1, sin1) = (cos0 * cos_d + sin0 * sin_d, sin0 * cos_d - cos0 * sin_d);
         let (cos2, sin2) = (cos0 * cos_d - sin0 * sin_d, sin0 * cos_d + cos0 * sin_d);
         let q = |cos: f64, sin: f64| big * cos * cos + small * sin * sin;
         let (q1, q2) = (q(cos1, sin1), q(cos2, sin2));
+        // The integrals of cos/q, sin/q and 1/q.
         let d = 2.0 * cos0 * sin_d / libm::sqrt(q1 * q2);
         let z = d * libm::sqrt(k * big);
-        let ix = -b * c * d * if z.abs() > 1e-9 { libm::asinh(z) / z } else { 1.0 };
+        let of_cos = d * if z.abs() > 1e-9 { libm::asinh(z) / z } else { 1.0 };
         let g = 2.0 * sin0 * sin_d / small;
         let y = g * libm::sqrt(k * small);
         // cos^2 u0 - sin^2 d = cos^2 d - sin^2 u0, whichever has the smaller terms.
         let squares =
             if sin0.abs() < 0.5 { (cos_d - sin0) * (cos_d + sin0) } else { (cos0 - sin_d) * (cos0 + sin_d) };
         let x = 1.0 + k / small * squares;
-        let iy = -a * c * g * if y.abs() > 1e-9 * x { libm::atan2(y, x) / y } else { 1.0 / x };
-        let turn = libm::atan2(
-            libm::sqrt(big * small) * 2.0 * sin_d * cos_d,
-            big * cos1 * cos2 + small * sin1 * sin2,
-        );
+        let of_sin = g * if y.abs() > 1e-9 * x { libm::atan2(y, x) / y } else { 1.0 / x };
+        let turn = libm::atan2(mean * 2.0 * sin_d * cos_d, big * cos1 * cos2 + small * sin1 * sin2);
         let turn = if cos_d < 0.0 { turn + TAU } else { turn };
-        let iz = a * b / libm::sqrt(big * small) * turn;
+        let of_one = turn / mean;
         // Half the sum and half the difference of the rim's points at the two crossings.
         let area = sin_d * libm::sqrt(l * (e3 * cos0 * cos0 + e1 * sin0 * sin0) + e1 * e3 * cos_d * cos_d);
         let dot = cos_d * cos_d * (e1 * cos0 * cos0 + e3 * sin0 * sin0) + l
             - sin_d * sin_d * (e1 * sin0 * sin0 + e3 * cos0 * cos0);
         let dphi = libm::atan2(2.0 * area, dot);
 
-        let terms = [heights.x * ix, heights.y * iy, heights.z * iz, dphi];
-        let value = (terms.iter().sum::<f64>() / TAU).clamp(0.0, 1.0);
-        let bound = 8.0 * EPS / TAU * terms.iter().map(|term| term.abs()).sum::<f64>();
-        let start = libm::atan2(libm::sqrt(small) * sin1, libm::sqrt(big) * cos1);
-        let gradient = self.gradient(start, turn);
+        let contour = DVec3::new(-b * c * of_cos, -a * c * of_sin, a * b * of_one);
+        let value = ((heights.dot(contour) + dphi) / TAU).clamp(0.0, 1.0);
+        let terms = (heights * contour).abs().element_sum() + dphi.abs();
+        // To first order the irradiance changes with the heights alone: the rim's ends are on the horizon.
+        let bound = ((8.0 * EPS + 4.0 * noise) * terms + off.dot(contour.abs())) / TAU;
+        let gradient = self.gradient(&Integrals::along(
+            (big, small),
+            [of_cos, of_sin, of_one],
+            [[cos1, sin1, q1], [cos2, sin2, q2]],
+        ));
         if bound <= ACCURACY * value {
-            return Irradiance { value, bound, escalated: false, gradient };
+            return Some(Irradiance { value, bound, escalated: false, gradient });
         }
         let (value, resolved) = self.area(swing, (cos0, sin0), (cos_d, sin_d));
+        let bound = (64.0 * EPS + 4.0 * noise + 4.0 * disturbed) * value;
         // Poles closer to the segment than f64 tells angles apart: nothing is promised.
-        let bound = if resolved { 64.0 * EPS * value + UNDERFLOW } else { value };
-        Irradiance { value, bound, escalated: true, gradient }
+        resolved.then_some(Irradiance { value, bound, escalated: true, gradient })
     }
 
-    /// The same as an integral over the ellipse's visible segment: lines parallel to the horizon in closed form, across
-    /// them by Gauss's rule. The integrand is positive, so nothing cancels.
-    ///
-    /// It is singular where a line or the rim passes through the apex, at complex angles that are known: panels are
-    /// halved until they are far from them, and the answer says whether all are.
-    fn area(&self, swing: f64, (cos0, sin0): (f64, f64), (cos_d, sin_d): (f64, f64)) -> (f64, bool) {
-        let &Principal { e1, e3, l, .. } = self;
-        let along = e1 * sin0 * sin0 + e3 * cos0 * cos0;
-        let skew = sin0 * cos0 * (e3 - e1);
-        let d = libm::atan2(sin_d, cos_d);
-        let line = |sin: f64, cos: f64, height: f64| {
-            // |p|^2 = (s^2 + delta)/along with s linear along the line.
-            let delta = l * along + cos * cos * e1 * e3;
-            let (s1, s2) = (skew * cos - along * sin, skew * cos + along * sin);
-            let root = libm::sqrt(delta);
-            let width = 2.0 * along * sin;
-            let (q1, q2) = (s1 * s1 + delta, s2 * s2 + delta);
-            // With the angles phi1, phi2 of its ends from its foot, and theta between them, the line has
-            // (theta + sin theta cos(phi1 + phi2))/(2 delta^(3/2)); a cosine below 0 is -1 and a square.
-            let theta = libm::atan2(root * width, delta + s1 * s2);
-            let sum = if s1 * s2 <= delta {
-                theta + root * width / q1 * ((delta - s1 * s2) / q2)
-            } else {
-                let cosines = libm::sqrt(delta / q1) + libm::sqrt(delta / q2);
-                arc_over_chord(theta) + libm::tan(0.5 * theta) * cosines * cosines
-            };
-            height * sin * along / (2.0 * delta * root) * sum
-        };
-        let rim = libm::asinh(libm::sqrt((l + e3) / (e1 - e3)));
-        let lines = libm::asinh(libm::sqrt(l * along / (e1 * e3)));
-        let mut panels = PANELS;
-        // From both ends, so that what is close to either is told from it.
-        let poles = [(half_turn(cos0, sin0), rim), (half_turn(cos0, -sin0), rim), (0.5 * PI, lines)];
-        let top = graded(0.0, 0.5 * d, &poles, HALVINGS, &mut panels, &|angle| {
-            let (sin, cos) = libm::sincos(angle);
-            line(sin, cos, 2.0 * libm::sin(0.5 * (d + angle)) * libm::sin(0.5 * (d - angle)))
-        });
-        let (cos1, sin1) = (cos0 * cos_d + sin0 * sin_d, cos0 * sin_d - sin0 * cos_d);
-        let (cos2, sin2) = (cos0 * cos_d - sin0 * sin_d, sin0 * cos_d + cos0 * sin_d);
-        let poles =
-            [(half_turn(-cos2, sin2), rim), (half_turn(-cos1, sin1), rim), (half_turn(-cos_d, sin_d), lines)];
-        let bottom = graded(0.0, 0.5 * d, &poles, HALVINGS, &mut panels, &|rest| {
-            let (sin, cos) = libm::sincos(rest);
-            let height = 2.0 * libm::sin(d - 0.5 * rest) * libm::sin(0.5 * rest);
-            line(sin_d * cos - cos_d * sin, cos_d * cos + sin_d * sin, height)
-        });
-        let sum = top + bottom;
-        (libm::sqrt(e1 * e3 * l) * swing / PI * sum, panels > 0)
-    }
-
-    /// G_ij = dE/dS_ij from the rim's part at the angles `start` .. `start + turn` of w, tan w = sqrt(B/A) tan u.
+    /// G_ij = dE/dS_ij, from the integrals over the visible rim.
     ///
     /// A change dS moves the rim outward by n^T dS n / (2 |S n|) with n the unit normal of the tangent plane, and what
-    /// it sweeps counts with its height: E changes by (1/pi) times the integral of height times that along the rim.
-    fn gradient(&self, start: f64, turn: f64) -> DMat3 {
+    /// it sweeps counts with its height: E changes by (1/pi) times the integral of height times that along the rim, as
+    /// [`super::graded_cone`] has it in u.
+    fn gradient(&self, of: &Integrals) -> DMat3 {
         let &Principal { e1, e3, l, axes, .. } = self;
         let (a, b, c) = (libm::sqrt(e1), libm::sqrt(e3), libm::sqrt(l));
-        let (root_a, root_b) = (libm::sqrt(l + e1), libm::sqrt(l + e3));
-        let (over_a, over_b) = (1.0 / root_a, 1.0 / root_b);
-        let (over_1, over_2, over_3) = (1.0 / a, 1.0 / b, -1.0 / c);
         let (up, across, middle) = (axes.x_axis.z * a, axes.y_axis.z * b, axes.z_axis.z * c);
-        let mut moments = [0.0; 6];
-        let mut add = |cos: f64, sin: f64, weight: f64| {
-            let (x, y) = (cos * over_a, sin * over_b);
-            let inverse = libm::sqrt(x * x + y * y);
-            let height = (up * x + across * y) / inverse + middle;
-            let (m1, m2, m3) = (x * over_1, y * over_2, inverse * over_3);
-            let products = [m1 * m1, m2 * m2, m3 * m3, m1 * m2, m1 * m3, m2 * m3];
-            for (moment, product) in moments.iter_mut().zip(products) {
-                *moment += weight * height * product;
-            }
-        };
-        // Gauss's points lie in pairs about the middle.
-        let (sin_middle, cos_middle) = libm::sincos(start + 0.5 * turn);
-        for (abscissa, weight) in POINTS_16 {
-            let (sin, cos) = libm::sincos(0.5 * turn * abscissa);
-            let weight = 0.5 * turn * weight;
-            add(cos_middle * cos - sin_middle * sin, sin_middle * cos + cos_middle * sin, weight);
-            add(cos_middle * cos + sin_middle * sin, sin_middle * cos - cos_middle * sin, weight);
-        }
-        let scale = a * b * c / (TAU * root_a * root_b);
-        let [xx, yy, zz, xy, xz, yz] = moments.map(|moment| moment * scale);
+        let height = |of_cos: f64, of_sin: f64, of_one: f64| up * of_cos + across * of_sin + middle * of_one;
+        let scale = a * b * c / TAU;
+        let xx = scale / e1 * height(of.c - of.css, of.scc, of.cc);
+        let yy = scale / e3 * height(of.css, of.s - of.scc, of.ss);
+        let zz = scale / l * height(of.c, of.s, of.cc + of.ss);
+        let xy = c / TAU * height(of.scc, of.css, of.cs);
+        let xz = -b / TAU * height(of.cc, of.cs, of.c);
+        let yz = -a / TAU * height(of.cs, of.ss, of.s);
         let local = DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
         axes * local * axes.transpose()
     }
 }
 
-/// x - sin x for x in 0..pi/2, to a few roundings: below 1/2 by its series, whose next term is 2^-58 of the sum.
-fn arc_over_chord(x: f64) -> f64 {
-    if x > 0.5 {
-        return x - libm::sin(x);
-    }
-    let square = x * x;
-    let mut sum = 1.0;
-    for k in (2..=7).rev() {
-        let k = f64::from(k);
-        sum = 1.0 - sum * square / (2.0 * k * (2.0 * k + 1.0));
-    }
-    x * square / 6.0 * sum
+/// Integrals over q^2 of cos^2, sin^2, cos sin, cos, cos sin^2, sin and sin cos^2 along the visible rim.
+#[derive(Clone, Copy, Debug, Default)]
+struct Integrals {
+    cc: f64,
+    ss: f64,
+    cs: f64,
+    c: f64,
+    css: f64,
+    s: f64,
+    scc: f64,
 }
 
-/// Halvings of a panel: a pole 2^-160 off the real axis is met where it lies next to an end at 0, about which f64 can say
-/// as much; elsewhere its place is good to 2^-53.
-const HALVINGS: u32 = 160;
-/// Panels of an integral: three poles take at most four a halving each. More are asked for only where a segment is so
-/// short that all of it seems to lie on a pole.
-const PANELS: u32 = 3 * 4 * HALVINGS;
-
-/// The angle of (x, y) or of (-x, -y), in -pi/2..pi/2.
-fn half_turn(y: f64, x: f64) -> f64 {
-    if x < 0.0 { libm::atan2(-y, -x) } else { libm::atan2(y, x) }
-}
-
-/// The integral of `f` over low..high within 0..pi, which is singular at the poles (x + k pi) + i y only, |x| <= pi/2.
-///
-/// A panel whose middle is 1.8 half lengths away from every pole has none within the ellipse of semi-axes' sum 3.3, and
-/// 16 points are good to 3.3^-32 = 3e-17 of what is largest in that.
-///
-/// Takes no more than `panels`, and leaves how many are left: none, if they did not do.
-fn graded(
-    low: f64,
-    high: f64,
-    poles: &[(f64, f64)],
-    halvings: u32,
-    panels: &mut u32,
-    f: &impl Fn(f64) -> f64,
-) -> f64 {
-    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-    let near = |&(x, y): &(f64, f64)| {
-        let off = if middle - x > 0.5 * PI { middle - x - PI } else { middle - x };
-        off * off + y * y < 3.24 * half * half
-    };
-    if halvings == 0 || *panels == 0 || !poles.iter().any(near) {
-        let mut sum = 0.0;
-        visit(&POINTS_16, low, high, |x, weight| sum += weight * f(x));
-        return sum;
+impl Integrals {
+    /// All around.
+    fn around(cone: &Principal) -> Self {
+        let (big, small) = (cone.l + cone.e1, cone.l + cone.e3);
+        let half = PI / libm::sqrt(big * small);
+        Integrals { cc: half / big, ss: half / small, ..Integrals::default() }
     }
-    *panels -= 1;
-    graded(low, middle, poles, halvings - 1, panels, f) + graded(middle, high, poles, halvings - 1, panels, f)
+
+    /// From the integrals over q of cos, sin and 1, and from cos, sin and q of both ends: see [`super::graded_cone`].
+    fn along(
+        (big, small): (f64, f64),
+        [of_cos, of_sin, of_one]: [f64; 3],
+        [[cos1, sin1, q1], [cos2, sin2, q2]]: [[f64; 3]; 2],
+    ) -> Self {
+        let k = big - small;
+        let (by1, by2) = (1.0 / q1, 1.0 / q2);
+        let both = sin2 * cos2 * by2 - sin1 * cos1 * by1;
+        let (sin, cos) = (sin2 * by2 - sin1 * by1, cos2 * by2 - cos1 * by1);
+        let (css, scc) = if k > 1e-4 * big {
+            (0.5 / k * (sin - of_cos), 0.5 / k * (cos + of_sin))
+        } else {
+            // q is the same all around, but for k.
+            let third = by1 * by2 / 3.0;
+            let cubes = |from: f64, to: f64| third * (to - from) * (to * to + to * from + from * from);
+            (cubes(sin1, sin2), cubes(cos2, cos1))
+        };
+        let (half_big, half_small) = (0.5 / big, 0.5 / small);
+        Integrals {
+            cc: half_big * (of_one + both),
+            ss: half_small * (of_one - both),
+            cs: 0.5 * (cos1 - cos2) * (cos1 + cos2) * by1 * by2,
+            c: half_big * (of_cos + sin),
+            css,
+            s: half_small * (of_sin - cos),
+            scc,
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Pure mathematics: spacing of floating-point formats, exact sums and products, quadrature, cubics, and the
 //! integrals that several families share.
 
+pub mod big;
 pub mod binary16;
 pub mod clipped_ellipse;
 pub mod clipped_sphere;
@@ -14,6 +15,7 @@ pub mod exact;
 pub mod exact3;
 pub mod gauss_legendre;
 pub mod half_turn;
+pub mod graded_cone;
 pub mod line_integral;
 pub mod plane_rectangle;
 pub mod polygon_irradiance;
@@ -23,4 +25,5 @@ pub mod slim_silhouette;
 pub mod spacing;
 pub mod symmetric3;
 pub mod twofold;
+pub mod visible_segment;
 pub mod vulkan_limits;

@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
+use super::big::{self, Big};
 use super::exact3;
 use super::twofold::Twofold;
 
@@ -44,6 +45,19 @@ impl Rotation {
     pub fn matrix(&self) -> DMat3 {
         let column = |k: usize| DVec3::from_array(self.columns[k].map(|component| component.value()));
         DMat3::from_cols(column(0), column(1), column(2))
+    }
+
+    /// The columns of |q|^2 R, and |q|^2, exactly but for q's power of two.
+    pub fn exact(&self) -> ([big::Vector; 3], Big) {
+        let [x, y, z] = big::vector(self.vector);
+        let w = big::exact(self.scalar);
+        let (xx, yy, zz, ww) = (&x * &x, &y * &y, &z * &z, &w * &w);
+        let columns = [
+            [&ww + &xx - &yy - &zz, (&x * &y + &z * &w) << 1, (&x * &z - &y * &w) << 1],
+            [(&x * &y - &z * &w) << 1, &ww - &xx + &yy - &zz, (&y * &z + &x * &w) << 1],
+            [(&x * &z + &y * &w) << 1, (&y * &z - &x * &w) << 1, &ww - &xx - &yy + &zz],
+        ];
+        (columns, ww + xx + yy + zz)
     }
 
     /// By which small vector the rotation turns for a relative change of each component of q by one: a change dq turns by

@@ -1,0 +1,447 @@
+//! What [`super::clipped_ellipse`] computes, in as many digits as it takes.
+//!
+//! The cone is Minv O Minv^T for the dual quadric O of a light, both exact. Every quantity of the closed form has its own
+//! formula in which nothing cancels but for grading, by which an eigenvalue may be 2^-1000 of another, and slivers above the
+//! horizon. The precision doubles until two results agree: what rounding decides differs between them.
+//!
+//! The gradient is G = (sqrt(e1 e3 l)/2pi) times the integral of p.z n n^T/|p|^4 over the visible u, with the tangent planes'
+//! normals n = (cos u/sqrt(e1), sin u/sqrt(e3), -1/sqrt(l)) in the principal frame. With q = |p|^2 = A cos^2 u + B sin^2 u and
+//! [f] the difference between the ends,
+//!
+//! ```text
+//! 2 A int cos^2/q^2 = J + [sin cos/q]     2 B int sin^2/q^2 = J - [sin cos/q]     J = int 1/q
+//! 2 A int cos/q^2 = P + [sin/q]           2 k int cos sin^2/q^2 = [sin/q] - P     P = int cos/q
+//! 2 B int sin/q^2 = Q - [cos/q]           2 k int sin cos^2/q^2 = [cos/q] + Q     Q = int sin/q
+//! ```
+
+use glam::DVec3;
+
+use super::big::{
+    Big, Symmetric, Vector, abs, angle, asinh_over, cross, dot, nearest, root, rounded, times, vector,
+};
+
+/// The first precision in bits. Most that escalates agrees with twice as many.
+const FIRST: usize = 128;
+/// The last. Eigenvalues of f32's extremes differ by 2^2200.
+const LAST: usize = 16384;
+/// Two values agree to 2^-60.
+const AGREEMENT: isize = 60;
+/// What must be 0 is 2^-20 of a sensitivity.
+const REMAINDER: isize = 20;
+
+/// Enough for Newton's first steps.
+const COARSE: usize = 96;
+
+/// A light's cone after Minv.
+pub struct GradedCone {
+    pub minv: [DVec3; 3],
+    /// The light's dual quadric, exact and at any scale: xx, yy, zz, xy, xz, yz.
+    pub own: Symmetric,
+    /// Any vector inside the nappe before Minv.
+    pub center: DVec3,
+}
+
+/// The irradiance as a share of the full hemisphere's.
+#[derive(Clone, Copy, Debug)]
+pub struct Irradiance {
+    pub value: f64,
+    /// Absolute error bound: one rounding, or 1 where no precision did.
+    pub bound: f64,
+    pub sensitivity: f64,
+}
+
+/// The quadric after Minv, exactly.
+struct Exact {
+    minv: [Vector; 3],
+    dual: Symmetric,
+    adjugate: Symmetric,
+    minus_det: Big,
+    towards: Vector,
+}
+
+impl GradedCone {
+    /// The irradiance on a plane with normal +z, and the sum over all inputs x of |x dE/dx|: those of Minv, and by
+    /// `of_light` of dE/dO those of the light.
+    pub fn irradiance(&self, of_light: impl Fn(&Symmetric) -> Big) -> Irradiance {
+        let exact = self.exact();
+        let dark = Irradiance { value: 0.0, bound: 0.0, sensitivity: 0.0 };
+        if exact.minus_det <= Big::ZERO || (exact.dual[2] <= Big::ZERO && exact.towards[2] <= Big::ZERO) {
+            return dark;
+        }
+        let mut before: Option<(Big, Big)> = None;
+        let mut bits = FIRST;
+        while bits <= LAST {
+            let start = before.as_ref().map(|(root, _)| root);
+            let Some(cone) = Principal::new(&exact, bits, start) else {
+                bits *= 2;
+                continue;
+            };
+            let found = cone.irradiance(&rounded(&exact.dual[2], bits), bits);
+            let Some((value, integrals)) = found else {
+                bits *= 2;
+                continue;
+            };
+            if let Some((_, other)) = &before
+                && agree(&value, other)
+                && let Some(sensitivity) =
+                    self.sensitivity(&exact, &cone.gradient(&integrals, bits), bits, &of_light)
+            {
+                let value = nearest(&value);
+                return Irradiance { value, bound: 0.5 * f64::EPSILON * value, sensitivity };
+            }
+            before = Some((cone.l, value));
+            bits *= 2;
+        }
+        Irradiance {
+            value: before.map_or(0.0, |(_, value)| nearest(&value)),
+            bound: 1.0,
+            sensitivity: f64::INFINITY,
+        }
+    }
+
+    fn exact(&self) -> Exact {
+        let minv = self.minv.map(vector);
+        let by_own = rows_times(&minv, &self.own);
+        let entry = |i: usize, j: usize| {
+            &by_own[i][0] * &minv[0][j] + &by_own[i][1] * &minv[1][j] + &by_own[i][2] * &minv[2][j]
+        };
+        let dual = [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)];
+        let determinant = dot(&minv[0], &cross(&minv[1], &minv[2]));
+        let [axx, _, _, axy, axz, _] = minors(&self.own);
+        let own = &self.own[0] * axx + &self.own[3] * axy + &self.own[4] * axz;
+        let center = vector(self.center);
+        let towards = [0, 1, 2]
+            .map(|row| &minv[0][row] * &center[0] + &minv[1][row] * &center[1] + &minv[2][row] * &center[2]);
+        let adjugate = minors(&dual);
+        Exact { minv, dual, adjugate, minus_det: -(&determinant * &determinant * own), towards }
+    }
+
+    /// The sum over all inputs of |x dE/dx|; nothing where this precision does not do. An irradiance that depends on
+    /// directions alone does not change with Minv's scale: what remains of the sum over Minv of x dE/dx is rounding.
+    fn sensitivity(
+        &self,
+        exact: &Exact,
+        gradient: &Symmetric,
+        bits: usize,
+        of_light: &impl Fn(&Symmetric) -> Big,
+    ) -> Option<f64> {
+        let minv = exact.minv.each_ref().map(|column| column.each_ref().map(|entry| rounded(entry, bits)));
+        // Columns G m; then G M O, and M^T G M.
+        let by_gradient = minv.each_ref().map(|column| times(gradient, column));
+        let rows = rows_times(&by_gradient, &self.own);
+        let (mut of_minv, mut of_scale) = (Big::ZERO, Big::ZERO);
+        for (k, column) in minv.iter().enumerate() {
+            for (row, entry) in column.iter().enumerate() {
+                let change = &rows[row][k] * entry;
+                of_scale += &change;
+                of_minv += abs(change);
+            }
+        }
+        let [xx, yy, zz, xy, xz, yz] =
+            [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| dot(&minv[i], &by_gradient[j]));
+        let sum = (of_minv << 1) + of_light(&[xx, yy, zz, xy, xz, yz]);
+        (abs(of_scale) << REMAINDER <= sum).then(|| nearest(&sum))
+    }
+}
+
+/// Whether a and b agree to [`AGREEMENT`].
+fn agree(a: &Big, b: &Big) -> bool {
+    abs(a - b) << AGREEMENT <= abs(a.clone())
+}
+
+/// The rows of C S for the columns of C.
+fn rows_times(columns: &[Vector; 3], [xx, yy, zz, xy, xz, yz]: &Symmetric) -> [Vector; 3] {
+    let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+    [0, 1, 2].map(|i| {
+        [0, 1, 2]
+            .map(|k| rows[0][k] * &columns[0][i] + rows[1][k] * &columns[1][i] + rows[2][k] * &columns[2][i])
+    })
+}
+
+/// The adjugate of a symmetric matrix.
+fn minors([x, y, z, xy, xz, yz]: &Symmetric) -> Symmetric {
+    [y * z - yz * yz, x * z - xz * xz, x * y - xy * xy, xz * yz - xy * z, xy * yz - xz * y, xy * xz - yz * x]
+}
+
+/// Eigenvalues and axes.
+struct Principal {
+    e1: Big,
+    e3: Big,
+    l: Big,
+    /// sqrt(e1 e3 l).
+    volume: Big,
+    axes: [Vector; 3],
+}
+
+impl Principal {
+    fn new(exact: &Exact, bits: usize, start: Option<&Big>) -> Option<Self> {
+        let round = |x: &Big| rounded(x, bits);
+        let dual = exact.dual.each_ref().map(round);
+        let [xx, yy, zz, xy, xz, yz] = &dual;
+        let [axx, ayy, azz, axy, axz, ayz] = &exact.adjugate;
+        let c2 = round(&(&exact.dual[0] + &exact.dual[1] + &exact.dual[2]));
+        let c1 = round(&(axx + ayy + azz));
+        let c0 = round(&exact.minus_det);
+        let l = match start {
+            Some(root) => newton(&c2, &c1, &c0, round(root), bits),
+            None => positive_root(&c2, &c1, &c0, bits),
+        }?;
+        let sum = &c2 + &l;
+        if sum <= Big::ZERO {
+            return None;
+        }
+        // The adjugate of S + l, (l + e1)(l + e3) W3 W3^T.
+        let (diagonal, off) =
+            (|a: &Big, s: &Big| round(a) + (&sum - s) * &l, |a: &Big, s: &Big| round(a) - s * &l);
+        let (axx, ayy, azz) = (diagonal(axx, xx), diagonal(ayy, yy), diagonal(azz, zz));
+        let (axy, axz, ayz) = (off(axy, xy), off(axz, xz), off(ayz, yz));
+        let column = if axx >= ayy && axx >= azz {
+            [axx, axy, axz]
+        } else if ayy >= azz {
+            [axy, ayy, ayz]
+        } else {
+            [axz, ayz, azz]
+        };
+        let w3 = normalized(column)?;
+        let towards = exact.towards.each_ref().map(round);
+        let side = dot(&w3, &towards);
+        // Far from what roundings leave.
+        if abs(side.clone()) << (bits / 2) as isize <= root(&dot(&towards, &towards)) {
+            return None;
+        }
+        let w3 = if side < Big::ZERO { w3.map(|component| -component) } else { w3 };
+
+        let size = w3.clone().map(abs);
+        let least = (0..3).fold(0, |least, k| if size[k] < size[least] { k } else { least });
+        let across: Vector = std::array::from_fn(|k| {
+            let product = &w3[k] * &w3[least];
+            if k == least { Big::ONE - product } else { -product }
+        });
+        let b1 = normalized(across)?;
+        let b2 = cross(&w3, &b1);
+        let (s1, s2) = (times(&dual, &b1), times(&dual, &b2));
+        let (s11, s22, s12) = (dot(&s1, &b1), dot(&s2, &b2), dot(&s1, &b2));
+        let tau = (s11 - s22) >> 1;
+        let h = root(&(&tau * &tau + &s12 * &s12));
+        let e1 = (sum >> 1) + &h;
+        let (cos, sin) = if h == Big::ZERO {
+            (Big::ONE, Big::ZERO)
+        } else {
+            let half = |x: &Big| root(&((Big::ONE + x / &h) >> 1));
+            if tau >= Big::ZERO {
+                let cos = half(&tau);
+                let sin = (s12 >> 1) / (&h * &cos);
+                (cos, sin)
+            } else {
+                let sin = half(&-&tau);
+                ((s12 >> 1) / (&h * &sin), sin)
+            }
+        };
+        let w1: Vector = std::array::from_fn(|k| &cos * &b1[k] + &sin * &b2[k]);
+        let w2: Vector = std::array::from_fn(|k| &cos * &b2[k] - &sin * &b1[k]);
+        let e3 = &c0 / &l / &e1;
+        let e3 = if e3 > e1 { e1.clone() } else { e3 };
+        Some(Principal { e1, e3, l, volume: c0.sqrt(), axes: [w1, w2, w3] })
+    }
+
+    /// The irradiance, and integrals over the visible rim; `szz` is S_zz.
+    fn irradiance(&self, szz: &Big, bits: usize) -> Option<(Big, Integrals)> {
+        let Principal { e1, e3, l, axes, .. } = self;
+        let (a, b, c) = (e1.sqrt(), e3.sqrt(), l.sqrt());
+        let [z1, z2, z3] = axes.each_ref().map(|axis| axis[2].clone());
+        let (up, across, middle) = (&z1 * &a, &z2 * &b, &z3 * &c);
+        let (big, small, k) = (l + e1, l + e3, e1 - e3);
+        let mean = (&big * &small).sqrt();
+        let pi = Big::pi(bits);
+        let tau = pi.clone() << 1;
+        let zero = Big::ZERO;
+        let (value, integrals) = if *szz <= zero {
+            let value = &a * &b / &mean * &z3;
+            let whole = &tau / &mean >> 1;
+            let integrals = Integrals {
+                cc: &whole / &big,
+                ss: &whole / &small,
+                cs: zero.clone(),
+                c: zero.clone(),
+                css: zero.clone(),
+                s: zero.clone(),
+                scc: zero,
+            };
+            (value, integrals)
+        } else {
+            let swing = root(&(&middle * &middle + szz));
+            let level = root(&(&up * &up + &across * &across));
+            if level == zero {
+                return None;
+            }
+            let (cos0, sin0) = (&up / &level, &across / &level);
+            let (cos_d, sin_d) = (-&middle / &swing, root(szz) / &swing);
+            let (cos1, sin1) = (&cos0 * &cos_d + &sin0 * &sin_d, &sin0 * &cos_d - &cos0 * &sin_d);
+            let (cos2, sin2) = (&cos0 * &cos_d - &sin0 * &sin_d, &sin0 * &cos_d + &cos0 * &sin_d);
+            let q = |cos: &Big, sin: &Big| &big * cos * cos + &small * sin * sin;
+            let (q1, q2) = (q(&cos1, &sin1), q(&cos2, &sin2));
+            let d = (&cos0 * &sin_d << 1) / root(&(&q1 * &q2));
+            let p = &d * asinh_over(&(&d * &d * &k * &big), bits);
+            let g = (&sin0 * &sin_d << 1) / &small;
+            let y = root(&(&g * &g * &k * &small));
+            let x = Big::ONE + &k / &small * (&cos0 * &cos0 - &sin_d * &sin_d);
+            let q = if y == zero { &g / x } else { &g * angle(&y, &x, &pi) / &y };
+            let (u, v) = (&mean * &sin_d * &cos_d << 1, &big * &cos1 * &cos2 + &small * &sin1 * &sin2);
+            let turn = if u < zero { &tau - angle(&-u, &v, &pi) } else { angle(&u, &v, &pi) };
+            let j = turn / &mean;
+            let area =
+                &sin_d * root(&(l * (e3 * &cos0 * &cos0 + e1 * &sin0 * &sin0) + e1 * e3 * &cos_d * &cos_d));
+            let plane = &cos_d * &cos_d * (e1 * &cos0 * &cos0 + e3 * &sin0 * &sin0) + l
+                - &sin_d * &sin_d * (e1 * &sin0 * &sin0 + e3 * &cos0 * &cos0);
+            let dphi = angle(&(area << 1), &plane, &pi);
+            let contour = &a * &b * &z3 * &j - &b * &c * &z1 * &p - &a * &c * &z2 * &q;
+            let value = (contour + dphi) / &tau;
+
+            let ends = |f1: Big, f2: Big| f2 / &q2 - f1 / &q1;
+            let of_both = ends(&sin1 * &cos1, &sin2 * &cos2);
+            let (of_sin, of_cos) = (ends(sin1.clone(), sin2.clone()), ends(cos1.clone(), cos2.clone()));
+            let cubed = |x: &Big| x * x * x;
+            // What is left of k's digits would be rounding.
+            let (css, scc) = if k.clone() << (bits / 3) as isize <= big {
+                let three = Big::from(3) * &big * &big;
+                ((cubed(&sin2) - cubed(&sin1)) / &three, (cubed(&cos1) - cubed(&cos2)) / &three)
+            } else {
+                ((&of_sin - &p) / (k.clone() << 1), (&of_cos + &q) / (k << 1))
+            };
+            let integrals = Integrals {
+                cc: (&j + &of_both) / (big.clone() << 1),
+                ss: (&j - &of_both) / (small.clone() << 1),
+                cs: (&cos1 * &cos1 - &cos2 * &cos2) / (q1 * q2 << 1),
+                c: (p + of_sin) / (big << 1),
+                css,
+                s: (q - of_cos) / (small << 1),
+                scc,
+            };
+            (value, integrals)
+        };
+        (value > Big::ZERO).then_some((value, integrals))
+    }
+
+    /// dE/dS.
+    fn gradient(&self, of: &Integrals, bits: usize) -> Symmetric {
+        let Principal { e1, e3, l, volume, axes } = self;
+        let (a, b, c) = (e1.sqrt(), e3.sqrt(), l.sqrt());
+        let (up, across, middle) = (&axes[0][2] * &a, &axes[1][2] * &b, &axes[2][2] * &c);
+        let scale = volume / (Big::pi(bits) << 1);
+        let height = |of_cos: &Big, of_sin: &Big, of_one: &Big| {
+            (&up * of_cos + &across * of_sin + &middle * of_one) * &scale
+        };
+        let local = [
+            height(&(&of.c - &of.css), &of.scc, &of.cc) / e1,
+            height(&of.css, &(&of.s - &of.scc), &of.ss) / e3,
+            height(&of.c, &of.s, &(&of.cc + &of.ss)) / l,
+            height(&of.scc, &of.css, &of.cs) / (&a * &b),
+            -height(&of.cc, &of.cs, &of.c) / (&a * &c),
+            -height(&of.cs, &of.ss, &of.s) / (&b * &c),
+        ];
+        // From the principal frame to the world's.
+        let world: [Vector; 3] = std::array::from_fn(|k| axes.each_ref().map(|axis| axis[k].clone()));
+        let half = world.each_ref().map(|row| times(&local, row));
+        [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| dot(&half[i], &world[j]))
+    }
+}
+
+/// Integrals over q^2 of cos^2, sin^2, cos sin, cos, cos sin^2, sin and sin cos^2.
+struct Integrals {
+    cc: Big,
+    ss: Big,
+    cs: Big,
+    c: Big,
+    css: Big,
+    s: Big,
+    scc: Big,
+}
+
+fn normalized(v: Vector) -> Option<Vector> {
+    let length = root(&dot(&v, &v));
+    (length > Big::ZERO).then(|| v.map(|component| component / &length))
+}
+
+/// The one positive root of l^3 + c2 l^2 + c1 l - c0, all of whose roots are real: within a few roundings, for the slope
+/// there is (l + e1)(l + e3), and no term is larger than a few times that and l.
+fn positive_root(c2: &Big, c1: &Big, c0: &Big, bits: usize) -> Option<Big> {
+    let all = [c2, c1, c0];
+    let [c2, c1, c0] = all.map(|c| rounded(c, COARSE));
+    let [c2, c1, c0] = [&c2, &c1, &c0];
+    // Two upper bounds, one of which is near: Laguerre's, and the root without the cube.
+    let mut l = ((root(&(c2 * c2 - c1 * Big::from(3))) << 1) - c2) / Big::from(3);
+    if *c2 > Big::ZERO {
+        let spread = root(&(c1 * c1 + (c2 * c0 << 2)));
+        let other = if *c1 > Big::ZERO {
+            (c0.clone() << 1) / (spread + c1)
+        } else {
+            (spread - c1) / (c2.clone() << 1)
+        };
+        if l <= Big::ZERO || other < l {
+            l = other;
+        }
+    }
+    if l <= Big::ZERO {
+        return None;
+    }
+    let l = newton(c2, c1, c0, l, COARSE)?;
+    let [c2, c1, c0] = all;
+    newton(c2, c1, c0, rounded(&l, bits), bits)
+}
+
+/// Newton's steps from an upper bound, where the cubic is convex, or from near the root.
+fn newton(c2: &Big, c1: &Big, c0: &Big, mut l: Big, bits: usize) -> Option<Big> {
+    for _ in 0..64 {
+        let value = ((&l + c2) * &l + c1) * &l - c0;
+        let slope = (&l * Big::from(3) + (c2.clone() << 1)) * &l + c1;
+        if slope <= Big::ZERO {
+            return None;
+        }
+        let step = value / slope;
+        // The next one would be this one's square.
+        let last = abs(step.clone()) << (bits / 2 + 4) as isize <= l;
+        l = if step < l { l - step } else { l >> 1 };
+        if last {
+            return Some(l);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::big;
+
+    /// A circle of radius r straight above at 1 under a Minv that stretches z by s: (r/s)^2/(1 + (r/s)^2), and of every
+    /// height what scale leaves of it.
+    #[test]
+    fn circles_of_any_size_are_their_sine_squared() {
+        for exponent in [-300, -120, -10, 0, 7, 100, 400] {
+            let s = libm::ldexp(1.0, exponent);
+            let own = [1.0, 1.0, -1.0, 0.0, 0.0, 0.0].map(big::exact);
+            let minv = [DVec3::X, DVec3::Y, s * DVec3::Z];
+            let found = GradedCone { minv, own, center: DVec3::Z }.irradiance(|_| Big::ZERO);
+            let expected = 1.0 / (1.0 + s * s);
+            assert!((found.value - expected).abs() <= 2e-16 * expected, "{s}: {found:?} {expected}");
+            // dE/d ln x_k of three entries: -E^2 s^2 for z, and half of its opposite for x and y each.
+            let sensitivity = 4.0 * expected * (s * s * expected);
+            assert!(
+                (found.sensitivity - sensitivity).abs() <= 1e-12 * sensitivity,
+                "{s}: {found:?} {sensitivity}"
+            );
+        }
+    }
+
+    #[test]
+    fn dark_and_flat_cones_give_nothing() {
+        let dark = |own: [f64; 6], center: DVec3| {
+            let minv = [DVec3::X, DVec3::Y, DVec3::Z];
+            GradedCone { minv, own: own.map(big::exact), center }.irradiance(|_| Big::ZERO).value
+        };
+        assert_eq!(dark([1.0, 1.0, -1.0, 0.0, 0.0, 0.0], -DVec3::Z), 0.0);
+        assert_eq!(dark([1.0, 0.0, -1.0, 0.0, 0.0, 0.0], DVec3::Z), 0.0);
+        // Touching the horizon from below.
+        assert_eq!(dark([-3.0, 1.0, 0.0, 0.0, 2.0, 0.0], DVec3::new(2.0, 0.0, -1.0)), 0.0);
+    }
+}
