@@ -23,7 +23,7 @@
 #define ROOTQ_CLIPPED_ELLIPSE
 
 #include "common/arctangent.glsl"
-#include "common/disk_cone.glsl"
+#include "common/elliptic_cone.glsl"
 
 const float CLIPPED_TURN = 6.28318530718;
 
@@ -77,7 +77,7 @@ float clipped_ellipse(DiskCone cone, float szz)
 
     float scale = cone.volume * root2;
     float dphi = arctangent_upper(scale, swing + l * szz);
-    float sum = cone.volume * (cone.rise * turn) + dphi - scale * (w1 * first + w2 * second);
+    float sum = cone.whole * turn + dphi - scale * (w1 * first + w2 * second);
     return clamp(sum * (1.0 / CLIPPED_TURN), 0.0, 1.0);
 }
 

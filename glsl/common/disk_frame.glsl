@@ -1,130 +1,159 @@
-// An ellipse after Minv in coordinates that leave little to compute, without a 2D eigensystem. Ours.
+// An ellipse after Minv in its own plane, with the point at the origin: one axis, what the conjugate one has across and along it,
+// the centre's coordinates, and the heights of the unit vectors. Ours.
 //
-// Of all conjugate semi-axes the pair (A, B) is taken whose B is horizontal, and the horizontal axes are turned so that B
-// lies along x: with the centre C,
+//     DISK_PRINCIPAL   the axes are the ellipse's own; else the longer of the given pair, and there is no 2D eigensystem
 //
-//     A = (a1, a2, a3), a3 >= 0     B = (b, 0, 0)     C = (c1, c2, c3)     N = A x B = b h n, h = hypot(a2, a3)
-//
-// so the rim rises to c3 +- a3, and in the light's plane, whose axes are x and n x x, A = (a1, h), B = (b, 0), C = (c1, d)
-// with the origin at the height cz over it.
+// Every number is within a few roundings of itself however long the ellipse is and however the matrix is graded, because what
+// belongs to the plane never passes through differences of images: cofactors map the normal, m v1 x m v2 = cof(m) (v1 x v2), and
+// the moment of the centre about the axis. What is across the axis is the area over it, and the centre's distances from the
+// axis and from the plane are moment and volume over what they belong to.
 
 #ifndef ROOTQ_DISK_FRAME
 #define ROOTQ_DISK_FRAME
 
+#include "common/elliptic_cone.glsl"
 #include "common/power_of_two.glsl"
 
-const float DISK_SMALLEST = 1.17549435e-38;
+// A light that is this many times as long as it is far and wide is cut there: what is beyond is seen within 2^-14 of its axis,
+// and the rest of the rim bends by no more.
+const float DISK_ENDLESS = 16384.0;
 
-// A light that is longer than 2^12 times what else there is seems endless, to 2^-24 of the hemisphere: it is cut there.
-const float DISK_ENDLESS = 4096.0;
+// The light and its distance are scaled to 2^12, so that products of eight lengths stay in f32's range. A width or a height below
+// this is taken for this, 2^-43 of the distance or less: the point is on the light, on the side it was.
+const float DISK_TOUCHING = 1.0e-13;
 
-// The light's size is 2^10: products of up to eight lengths occur, so that the largest leave a factor of 10 to the end of f32's
-// range, and the smallest have the rest of it. A height below this is taken for this, 1e-18 of the light's size: the point is
-// on the light, on the side it was.
-const float DISK_TOUCHING = 1.0e-15;
-
-// A light is level if the products that make its area are this many times its rise times its longer vector.
-const float DISK_FLAT = 16.0;
+// 2^60, for areas: products with a third length leave the range of f32 later.
+const float DISK_LARGE = 1.152921504606847e18;
 
 struct DiskFrame {
-    float a1;
-    float a3;
-    float b;
-    float h;
-    float c1;
-    float c3;
-    float d;
-    float cz;     // signed, never 0
-    float area;   // b h; 0: a light without area, and the rest undefined
-    vec2 slope;   // (a2, a3)/h: the way from the plane's axes to y and z
+    float along;    // length of the axis
+    float shear;    // of the conjugate one along it; 0 for the ellipse's own axes
+    float across;   // and across
+    vec3 center;    // along, across and normal; never 0 along the normal
+    vec3 heights;   // of the unit vectors of these three
+    float rise;     // the rim rises to height -+ rise
+    float height;   // of the centre
+    bool dark;      // no area, or seen edge-on: the rest is undefined
 };
 
-float disk_longest(vec3 v)
+// Multiplies the light's components and the columns of m by powers of two. Both factors of a product of one component and its
+// column get alike, so that m v stays itself up to a power of two; the largest are in 1..2 and 2^12..2^13.
+void disk_scale(inout mat3 m, inout vec3 c, inout vec3 v1, inout vec3 v2)
 {
-    return max(abs(v.x), max(abs(v.y), abs(v.z)));
-}
-
-// For the centre and any conjugate semi-axes before m. Matrix, light and image are scaled by powers of two; the first two to 2^19,
-// for the volume is a product of six.
-//
-// What belongs to a plane is mapped by the cofactors of m, since m v1 x m v2 = cof(m) (v1 x v2): a matrix that makes needles of
-// all lights, as at grazing angles, costs no digits then, where a cross product of the images loses as many as the needle
-// is long.
-DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
-{
-    float scale = scale_to_power(disk_longest(max(abs(m[0]), max(abs(m[1]), abs(m[2])))), 19);
-    m[0] *= scale;
-    m[1] *= scale;
-    m[2] *= scale;
-    float size1 = disk_longest(v1);
-    float size2 = disk_longest(v2);
-    scale = scale_to_power(max(disk_longest(c), max(size1, size2)), 19);
+    vec3 light = max(abs(c), max(abs(v1), abs(v2)));
+    vec3 column = vec3(largest_component(m[0]), largest_component(m[1]), largest_component(m[2]));
+    ivec3 of_light = floatBitsToInt(light) >> 23;
+    ivec3 of_column = floatBitsToInt(column) >> 23;
+    ivec3 apart = (of_column - of_light) >> 1;
+    ivec3 together = of_column + of_light;
+    int top = max(together.x, max(together.y, together.z)) >> 1;
+    vec3 scale = intBitsToFloat(clamp(254 - top - apart, 1, 253) << 23);
+    m[0] *= scale.x;
+    m[1] *= scale.y;
+    m[2] *= scale.z;
+    scale = intBitsToFloat(clamp(266 - top + apart, 1, 253) << 23);
     c *= scale;
     v1 *= scale;
     v2 *= scale;
-    size1 *= scale;
-    size2 *= scale;
+}
 
+// For the centre and any conjugate semi-axes before m.
+DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
+{
+    disk_scale(m, c, v1, v2);
     vec3 C = m * c;
     vec3 V1 = m * v1;
     vec3 V2 = m * v2;
     vec3 k0 = cross(m[1], m[2]);
     vec3 k1 = cross(m[2], m[0]);
     vec3 k2 = cross(m[0], m[1]);
-    vec3 kz = vec3(k0.z, k1.z, k2.z);
-    vec3 area = cross(v1, v2);
-    vec3 N = area.x * k0 + area.y * k1 + area.z * k2;
-    float volume = dot(kz, vec3(m[0].z, m[1].z, m[2].z)) * dot(area, c);
-
-    float far = disk_longest(C);
-    float long1 = disk_longest(V1);
-    float long2 = disk_longest(V2);
-    // At most one of them is endless.
-    float longer = max(long1, long2);
-    float cut = min(DISK_ENDLESS * max(min(long1, long2), far) / max(longer, DISK_SMALLEST), 1.0);
-    scale = scale_to_power(max(far, max(min(long1, long2), longer * cut)), 10);
-    float cut1 = long1 < longer ? 1.0 : cut;
-    float cut2 = long1 < longer ? cut : 1.0;
-    cut1 *= scale;
-    cut2 *= scale;
-    C *= scale;
-    V1 *= cut1;
-    V2 *= cut2;
-    N *= cut1;
-    N *= cut2;
-    volume = volume * scale * cut1 * cut2;
+    vec3 area = cross(DISK_LARGE * v1, v2);
+    vec3 normal = area.x * k0 + area.y * k1 + area.z * k2;
+    float det = k0.z * m[0].z + k1.z * m[1].z + k2.z * m[2].z;
+    float volume = dot(area, c);
 
     DiskFrame f;
-    vec2 up = vec2(V1.z, V2.z);
-    float up_square = dot(up, up);
-    bool level = up_square < 1.0e-36;
-    float inverse_a3 = level ? 1.0 : inversesqrt(max(up_square, DISK_SMALLEST));
-    up = level ? vec2(1.0, 0.0) : up * inverse_a3;
-    f.a3 = level ? 0.0 : up_square * inverse_a3;
-    // B a3 = V1.z V2 - V2.z V1 is N turned by a right angle. N's roundings are shares of its products, and over a3 they are more
-    // than B where the light is level but for roundings: there the difference itself, whose roundings are shares of the longer
-    // vector.
-    vec2 k = max(abs(k0.xy), max(abs(k1.xy), abs(k2.xy)));
-    float products = (size1 * cut1) * (size2 * cut2) * max(k.x, k.y);
-    bool flat_light = products > DISK_FLAT * f.a3 * max(long1 * cut1, long2 * cut2);
-    vec2 B = flat_light ? up.x * V2.xy - up.y * V1.xy : vec2(N.y, -N.x) * inverse_a3;
-    float b2 = dot(B, B);
-    float inverse_b = inversesqrt(max(b2, DISK_SMALLEST));
-    B *= inverse_b;
-    f.b = b2 * inverse_b;
-    float n2 = dot(N, N);
-    float inverse_n = inversesqrt(max(n2, DISK_SMALLEST));
-    f.a1 = up.x * dot(B, V1.xy) + up.y * dot(B, V2.xy);
-    f.area = min(n2, b2) > 1.0e-36 ? n2 * inverse_n : 0.0;
-    f.h = f.area * inverse_b;
-    f.slope = vec2(-N.z, f.b * f.a3) * inverse_n;
-    f.c1 = dot(B, C.xy);
-    f.c3 = C.z;
-    // The height of C x B, by the light before m.
-    float crossed = dot(kz, cross(c, (cut1 * up.y) * v1 - (cut2 * up.x) * v2)) * scale;
-    f.d = crossed * inverse_b * f.slope.x + f.c3 * f.slope.y;
-    float height = max(abs(volume) * inverse_n, DISK_TOUCHING);
-    f.cz = volume < 0.0 ? -height : height;
+    float d11 = dot(V1, V1);
+    float d22 = dot(V2, V2);
+#ifdef DISK_PRINCIPAL
+    // Half the angle of (difference of squares, product) turns the pair to the axes. If it is off by a rounding, the pair is
+    // still conjugate, and what the axis has of the other is a rounding of its length.
+    float unit = 1.0 / max(d11 + d22, DISK_SMALLEST);
+    float both = dot(V1, V2) * unit;
+    float difference = 0.5 * (d11 - d22) * unit;
+    float split = sqrt(difference * difference + both * both);
+    vec2 turn = difference > 0.0 ? vec2(difference + split, both) : vec2(both, split - difference);
+    float turn2 = dot(turn, turn);
+    turn = turn2 > 1.0e-18 ? turn * inversesqrt(turn2) : vec2(1.0, 0.0);
+    vec3 before = turn.x * v1 + turn.y * v2;
+    vec3 axis = turn.x * V1 + turn.y * V2;
+#else
+    bool first = d11 > d22;
+    vec3 before = first ? v1 : v2;
+    vec3 axis = first ? V1 : V2;
+    vec3 other = first ? V2 : -V1;
+#endif
+    float axis2 = dot(axis, axis);
+    float inverse_along = inversesqrt(max(axis2, DISK_SMALLEST));
+    axis *= inverse_along;
+    float along = axis2 * inverse_along;
+    float normal_scale = scale_to_one(largest_component(normal));
+    normal *= normal_scale;
+    float normal2 = dot(normal, normal);
+    float inverse_normal = inversesqrt(max(normal2, DISK_SMALLEST));
+    normal *= inverse_normal;
+    float across =
+        normal2 * inverse_normal * (reciprocal_power_of_two(normal_scale) * (1.0 / DISK_LARGE)) * inverse_along;
+    vec3 moment = cross(c, before);
+    float x = dot(C, axis);
+    float y = -dot(normal, moment.x * k0 + moment.y * k1 + moment.z * k2) * inverse_along;
+    float z = det * (volume * normal_scale * inverse_normal);
+    f.heights = vec3(axis.z, normal.x * axis.y - normal.y * axis.x, normal.z);
+    f.dark = normal2 < 0.5 || volume == 0.0 || det == 0.0;
+
+    float near = max(max(abs(y), abs(z)), max(across, abs(x) - along));
+    float end = DISK_ENDLESS * near;
+    bool endless = along > end;
+#ifdef DISK_PRINCIPAL
+    f.shear = 0.0;
+#else
+    // Such a light's own axes are a stretch and a tilt away.
+    f.shear = dot(other, axis);
+    float ratio = f.shear * inverse_along;
+    float stretch2 = 1.0 + ratio * ratio;
+    float stretch = endless ? inversesqrt(stretch2) : 1.0;
+    float tilt = endless ? across * inverse_along * ratio * (stretch * stretch) : 0.0;
+    y -= tilt * x;
+    f.heights.xy += tilt * vec2(f.heights.y, -f.heights.x);
+    along *= endless ? stretch2 * stretch : 1.0;
+    across *= stretch;
+    inverse_along *= stretch;
+    f.shear = endless ? 0.0 : f.shear;
+#endif
+    // It becomes one of the same width at the point's foot, or with the same tip.
+    float beyond = abs(x) - along;
+    bool between = -beyond > end;
+    float share = -beyond * inverse_along;
+    float over = (between ? share : end * inverse_along) * (2.0 - share);
+    float under = between ? 1.0 : 2.0 + beyond / max(end, DISK_SMALLEST);
+    float left = between ? 0.0 : end + beyond;
+    x = endless ? (x < 0.0 ? -left : left) : x;
+    across *= endless ? over * inversesqrt(max(over * under, DISK_SMALLEST)) : 1.0;
+    along = min(along, end);
+    float height = endless ? x * f.heights.x + y * f.heights.y + z * f.heights.z : C.z;
+
+    float scale = scale_to_power(max(along, near), 12);
+    f.along = along * scale;
+    f.shear *= scale;
+    f.across = max(across * scale, DISK_TOUCHING);
+    z *= scale;
+    bool below = (volume < 0.0) != (det < 0.0);
+    float apart = max(abs(z), DISK_TOUCHING);
+    apart = below ? -apart : apart;
+    f.center = vec3(x * scale, y * scale, apart);
+    f.height = height * scale + (apart - z) * f.heights.z;
+    vec2 reach = vec2(f.along * f.heights.x, f.shear * f.heights.x + f.across * f.heights.y);
+    f.rise = sqrt(reach.x * reach.x + reach.y * reach.y);
     return f;
 }
 

@@ -9,24 +9,19 @@
 #else
 #include "common/horizon_choice.glsl"
 #endif
-#include "common/disk_cone.glsl"
+#include "common/elliptic_cone.glsl"
 
-float disk_irradiance(DiskFrame f, DiskCone cone)
+// The rim rises to height -+ rise.
+float disk_irradiance(DiskCone cone, float rise, float height)
 {
-    float result;
 #ifdef EXACT_HORIZON
-    float szz = (f.a3 - f.c3) * (f.a3 + f.c3);
-    if (szz > 0.0) {
-        result = clipped_ellipse(cone, szz);
-    } else {
-        result = f.c3 > 0.0 ? min(cone.volume * abs(cone.rise), 1.0) : 0.0;
-    }
+    float szz = (rise - height) * (rise + height);
+    return szz > 0.0 ? clipped_ellipse(cone, szz) : clamp(cone.whole, 0.0, 1.0);
 #else
-    float height = sqrt(cone.height2);
-    float form = height > 0.0 ? cone.volume * abs(cone.rise) / height : 0.0;
-    result = f.c3 > -f.a3 ? horizon_of_sphere(cone.rise < 0.0 ? -height : height, min(form, 1.0)) : 0.0;
+    float mean = sqrt(cone.height2);
+    float form = mean > 0.0 ? abs(cone.whole) / mean : 0.0;
+    return height > -rise ? horizon_of_sphere(cone.whole < 0.0 ? -mean : mean, min(form, 1.0)) : 0.0;
 #endif
-    return f.area > 0.0 ? result : 0.0;
 }
 
 #endif

@@ -39,7 +39,7 @@ defines = { INSIDE = 1 }
 
 #include "common/line_light.glsl"
 #ifdef DISKS
-#include "common/disk_direct.glsl"
+#include "common/disk_secular.glsl"
 #include "common/orthogonal.glsl"
 #endif
 
@@ -77,9 +77,9 @@ float ltc_cylinder(mat3 minv, vec3 p1, vec3 p2, float radius)
     vec3 v2 = cross(axis, v1);
     // A cap is seen from beyond its end only.
     if (dot(axis, p1) > 0.0) {
-        sum += disk_direct(minv, p1, v1, v2);
+        sum += disk_secular(minv, p1, v1, v2);
     } else if (dot(axis, p2) < 0.0) {
-        sum += disk_direct(minv, p2, v1, v2);
+        sum += disk_secular(minv, p2, v1, v2);
     }
 #endif
 #ifdef INSIDE

@@ -1,7 +1,7 @@
 /*---
-summary = "The ellipse's own axes in its plane, secular equation by two poles, Halley and Newton; exact horizon"
+summary = "The ellipse's own axes in its plane, secular equation by two poles and Halley's step in shares of it; exact horizon"
 source  = "ours; the angle as in Jacobi's method"
-tried   = "What direct.comp says of the frame, the steps and the horizon holds here too. The form before it, with axes in space, cone axes and their principal frame, took 123 ns beside 92 of talk2017 and 51 of an empty kernel, on a busy machine"
+tried   = "What direct.comp says of the frame and the horizon holds here too. Axes in space, cone axes and their principal frame: 123 ns beside 92 of talk2017 and 51 of an empty kernel, on a busy machine. Three rational steps: 1.12 of talk2017's time for 0.94"
 [[variant]]
 name = "secular_exact"
 defines = { EXACT_HORIZON = 1 }
@@ -23,8 +23,8 @@ summary = "The secular cone; the horizon by a rational fit"
 defines = { HORIZON = 2 }
 ---*/
 
-// As `direct`, with the axes of the ellipse in its plane first, from half the angle of (difference of squares, product): the two
-// poles of the secular equation and the point's coordinates along them are then at hand, and needles lose less.
+// As `direct`, with the axes of the ellipse in its plane first, from half the angle of (difference of squares, product): the poles of
+// the secular equation and the centre's coordinates along them are then at hand, and all the cone needs are shares of that equation.
 //
 // Domain: as `direct_exact`.
 // Source: ours; the angle as in Jacobi's method.
@@ -38,38 +38,9 @@ defines = { HORIZON = 2 }
 //   secular_sphere_analytic   5.2% 5e-2  9.7% 4e-2      0 5e-7     40x 2e-3    26% 8e-2  6.4% 8e-2  44% 7e-2    80% 7e-2    16% 6e1
 //   secular_rational           26% 2e-1   25% 2e-1    65% 1e-1  0.086% 3e-2    36% 2e-1  8.4% 2e-1  51% 2e-1   100% 2e-1    20% 6e1
 
-#include "common/disk_irradiance.glsl"
+#include "common/disk_secular.glsl"
 
 float ltc_disk(mat3 minv, vec3 center, vec3 v1, vec3 v2)
 {
-    DiskFrame f = disk_frame(minv, center, v1, v2);
-    // The ellipse's own axes in its plane: half the angle of (difference, both).
-    float b2 = f.b * f.b;
-    float g11 = f.a1 * f.a1 + b2;
-    float g22 = f.h * f.h;
-    float difference = 0.5 * (g11 - g22);
-    float both = f.a1 * f.h;
-    float split = sqrt(difference * difference + both * both);
-    vec2 major = difference > 0.0 ? vec2(difference + split, both) : vec2(both, split - difference);
-    float square = dot(major, major);
-    major = square > 1.0e-30 ? major * inversesqrt(square) : vec2(1.0, 0.0);
-    float h1 = 0.5 * (g11 + g22) + split;
-    float product = f.area * f.area;
-    float h2 = product / max(h1, DISK_SMALLEST);
-    vec2 c = vec2(major.x * f.c1 + major.y * f.d, major.x * f.d - major.y * f.c1);
-    float p = c.x * c.x;
-    float q = c.y * c.y;
-
-    Confocal k;
-    k.z = f.cz * f.cz;
-    k.sum = h1 + h2;
-    k.product = product;
-    k.alpha = p + q;
-    k.beta = p * h2 + q * h1;
-    k.gamma = p * h1 + q * h2;
-    k.kappa = p * h2 * h2 + q * h1 * h1;
-    float l = confocal_lambda(k, confocal_start(p, h1, q, h2, k.z));
-    vec2 w = vec2(c.x * (h2 + l), c.y * (h1 + l));
-    w = vec2(major.x * w.x - major.y * w.y, major.y * w.x + major.x * w.y);
-    return disk_irradiance(f, disk_cone(f, k, l, w));
+    return disk_secular(minv, center, v1, v2);
 }

@@ -2,7 +2,7 @@
 
 use super::Verdict;
 use super::judge::{self, Measure};
-use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem, Quantity};
+use crate::family::{MAX_COMPONENTS, MAX_OUTPUTS, Problem, Quantity, Truth};
 
 /// A row of the truth table beside which a variant's outputs are judged.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,45 @@ pub struct Judgement {
 
 impl Judgement {
     /// Judges `values`, all components in column order, beside `row`.
+    ///
+    /// A device may flush subnormal inputs to zero before the shader sees them. What is right for the flushed inputs, or
+    /// as near as rounding them explains, is `ill_conditioned`, not the variant's fault.
     pub fn new(problem: &dyn Problem, row: Row<'_>, values: &[f32]) -> Judgement {
+        let judgement = Judgement::beside(problem, row, values);
+        // Promises of builtins say themselves what becomes of subnormals.
+        let promised = problem.outputs().iter().any(|output| output.quantity == Quantity::Builtin);
+        let blamed = judgement.verdict.is_failure() && judgement.verdict != Verdict::NonFinite;
+        if promised || !blamed || !row.inputs.iter().any(|input| input.is_subnormal()) {
+            return judgement;
+        }
+        let flushed: Vec<f32> =
+            row.inputs.iter().map(|input| if input.is_subnormal() { 0.0 } else { *input }).collect();
+        let mut truth = Truth::new(problem.outputs());
+        problem.oracle(&flushed, &mut truth);
+        let row = Row {
+            inputs: &flushed,
+            truth: truth.values(),
+            sensitivities: truth.sensitivities(),
+            margin: truth.margin(),
+            ..row
+        };
+        if Judgement::beside(problem, row, values).verdict.is_failure() {
+            judgement
+        } else {
+            judgement.excused()
+        }
+    }
+
+    /// The same with every failure laid to the problem.
+    fn excused(mut self) -> Judgement {
+        let verdicts = self.measures.iter_mut().map(|measure| &mut measure.verdict);
+        for verdict in verdicts.chain([&mut self.verdict]).filter(|verdict| verdict.is_failure()) {
+            *verdict = Verdict::IllConditioned;
+        }
+        self
+    }
+
+    fn beside(problem: &dyn Problem, row: Row<'_>, values: &[f32]) -> Judgement {
         let outputs = problem.outputs();
         let mut exact = [0.0; MAX_COMPONENTS];
         for (exact, value) in exact.iter_mut().zip(values) {
@@ -113,7 +151,7 @@ impl Judgement {
 mod tests {
     use super::*;
     use crate::catalog::{Field, Type};
-    use crate::family::{Landmark, Output, Relation, Scenario, Truth};
+    use crate::family::{Landmark, Output, Relation, Scenario};
 
     /// A ray's parameter and direction; a negative parameter is a miss.
     struct Ray;
@@ -153,7 +191,12 @@ mod tests {
             &[]
         }
 
-        fn oracle(&self, _: &[f32], _: &mut Truth) {}
+        /// 2, or 1 where x is 0.
+        fn oracle(&self, input: &[f32], truth: &mut Truth) {
+            truth.scalar(0, if input[0] == 0.0 { 1.0 } else { 2.0 }, 0.0, 1.0);
+            truth.unit_vector(1, glam::DVec3::X, 0.0, 1.0);
+            truth.unit_vector(2, glam::DVec3::Y, 0.0, 1.0);
+        }
 
         fn is_miss(&self, values: &[f64]) -> bool {
             values[0] < 0.0
@@ -163,9 +206,12 @@ mod tests {
     const HIT: [f64; 7] = [2.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
     const MISS: [f64; 7] = [-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 
+    fn row(truth: &[f64; 7]) -> Row<'_> {
+        Row { index: 0, inputs: &[0.0], truth, sensitivities: &[1.0; 3], margin: 1.0, bins: &[] }
+    }
+
     fn judge(truth: &[f64; 7], values: [f32; 7]) -> Judgement {
-        let row = Row { index: 0, inputs: &[0.0], truth, sensitivities: &[1.0; 3], margin: 1.0, bins: &[] };
-        Judgement::new(&Ray, row, &values)
+        Judgement::new(&Ray, row(truth), &values)
     }
 
     fn values(truth: &[f64; 7]) -> [f32; 7] {
@@ -193,6 +239,27 @@ mod tests {
         let judgement = judge(&HIT, [2.0, 1.0, 0.0008, 0.0, 0.0008, 1.0, 0.0]);
         assert!(judgement.measures().iter().all(|measure| measure.verdict == Verdict::Ok));
         assert_eq!(judgement.verdict, Verdict::NotOrthogonal);
+    }
+
+    #[test]
+    fn what_flushing_explains_is_excused() {
+        let mut of_flushed = values(&HIT);
+        of_flushed[0] = 1.0;
+        let judged = |x: f32, values: [f32; 7]| {
+            let row = Row { inputs: &[x], ..row(&HIT) };
+            Judgement::new(&Ray, row, &values)
+        };
+        assert_eq!(judged(1e-40, values(&HIT)).verdict, Verdict::Ok);
+        let excused = judged(1e-40, of_flushed);
+        assert_eq!(excused.verdict, Verdict::IllConditioned);
+        assert_eq!(excused.measures()[0].verdict, Verdict::IllConditioned);
+        // A normal input is not flushed, and neither answer is right.
+        assert_eq!(judged(1e-30, of_flushed).verdict, Verdict::Inaccurate);
+        let mut neither = of_flushed;
+        neither[0] = 1.5;
+        assert_eq!(judged(1e-40, neither).verdict, Verdict::Inaccurate);
+        of_flushed[6] = f32::NAN;
+        assert_eq!(judged(1e-40, of_flushed).verdict, Verdict::NonFinite);
     }
 
     #[test]

@@ -10,7 +10,8 @@ pub enum Verdict {
     Ok,
     /// The specification of the device promises nothing for these inputs: any answer will do.
     Unspecified,
-    /// Beyond the tolerance, but no further than rounding the inputs would explain: the problem's fault.
+    /// Beyond the tolerance, but no further than rounding the inputs, or flushing subnormal ones, would explain: the
+    /// problem's fault.
     IllConditioned,
     /// Beyond the tolerance: the variant's fault.
     Inaccurate,

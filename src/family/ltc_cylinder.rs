@@ -110,7 +110,7 @@ impl Problem for LtcCylinder {
         let minv = matrix(input);
         let (p1, p2) = (vector(&input[P1..]), vector(&input[P2..]));
         let radius = f64::from(input[RADIUS]).abs();
-        if radius == 0.0 || p1 == p2 || products::determinant(&minv) == 0.0 {
+        if radius == 0.0 || p1 == p2 || products::is_singular(&minv) {
             truth.scalar(0, 0.0, 0.0, 0.0);
             return;
         }

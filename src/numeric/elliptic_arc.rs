@@ -17,7 +17,8 @@ use glam::DVec3;
 
 use super::cubic::positive_root;
 use super::double_double::Real;
-use super::gauss_legendre::{POINTS_8, POINTS_16, visit};
+use super::gauss_legendre::{POINTS_8, POINTS_16};
+use super::half_turn::sin_cos;
 
 /// Three components.
 pub type Vector<T> = [T; 3];
@@ -232,21 +233,29 @@ impl Ellipse<f64> {
         let ([p1, p2, p3], turned) =
             ([a * w1, b * w2, root_l * w3], [root_l * b * w1, root_l * a * w2, a * b * w3]);
         let heights = [n.dot(p1), n.dot(p2), n.dot(p3)];
-        visit(rule, from, from + turn, |w, weight| {
-            let (sin_w, cos_w) = w.sin_cos();
-            let (cos, sin) = (cos_w / big, sin_w / small);
-            let inverse = (cos * cos + sin * sin).sqrt();
-            // |p| is the inverse of that root, for p of these multiples of it.
-            let (cos, sin) = (cos / inverse, sin / inverse);
-            let p = cos * p1 + sin * p2 + p3;
-            let height = heights[0] * cos + heights[1] * sin + heights[2];
-            let off = (self.volume / height) * p - c;
-            let by = (scale * weight * p.z * height * inverse * inverse)
-                * (turned[2] - cos * turned[0] - sin * turned[1]);
-            moments[0] += by;
-            moments[1] += off.dot(by_x) * by;
-            moments[2] += off.dot(by_y) * by;
-        });
+        // cos w/big and sin w/small at w = middle -+ offset, by the sines of both.
+        let half_turn = 0.5 * turn;
+        let (sin_m, cos_m) = (from + half_turn).sin_cos();
+        let (cos_m, sin_m, cross_cos, cross_sin) = (cos_m / big, sin_m / small, cos_m / small, sin_m / big);
+        for &(abscissa, weight) in rule {
+            let (sin_o, cos_o) = sin_cos(abscissa * half_turn);
+            for sin_o in [sin_o, -sin_o] {
+                let cos = cos_m * cos_o - cross_sin * sin_o;
+                let sin = sin_m * cos_o + cross_cos * sin_o;
+                // |p| is the root's inverse, for p of these multiples of it.
+                let inverse2 = cos * cos + sin * sin;
+                let root = 1.0 / inverse2.sqrt();
+                let (cos, sin) = (cos * root, sin * root);
+                let p = cos * p1 + sin * p2 + p3;
+                let height = heights[0] * cos + heights[1] * sin + heights[2];
+                let off = (self.volume / height) * p - c;
+                let by = (scale * half_turn * weight * p.z * height * inverse2)
+                    * (turned[2] - cos * turned[0] - sin * turned[1]);
+                moments[0] += by;
+                moments[1] += off.dot(by_x) * by;
+                moments[2] += off.dot(by_y) * by;
+            }
+        }
         moments
     }
 }
@@ -287,6 +296,7 @@ fn normalized<T: Real>(v: Vector<T>) -> Vector<T> {
 mod tests {
     use super::*;
     use crate::numeric::double_double::DoubleDouble;
+    use crate::numeric::gauss_legendre::visit;
     use crate::numeric::products::norm;
     use crate::sample::Stream;
 

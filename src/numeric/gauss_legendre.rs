@@ -24,6 +24,22 @@ pub const POINTS_16: [(f64, f64); 8] = [
     (0.989_400_934_991_649_9, 0.027_152_459_411_754_095),
 ];
 
+/// 24 points: about rho^-48.
+pub const POINTS_24: [(f64, f64); 12] = [
+    (0.064_056_892_862_605_63, 0.127_938_195_346_752_16),
+    (0.191_118_867_473_616_3, 0.125_837_456_346_828_3),
+    (0.315_042_679_696_163_4, 0.121_670_472_927_803_39),
+    (0.433_793_507_626_045_1, 0.115_505_668_053_725_6),
+    (0.545_421_471_388_839_6, 0.107_444_270_115_965_63),
+    (0.648_093_651_936_975_5, 0.097_618_652_104_113_88),
+    (0.740_124_191_578_554_4, 0.086_190_161_531_953_27),
+    (0.820_001_985_973_903, 0.073_346_481_411_080_3),
+    (0.886_415_527_004_401_1, 0.059_298_584_915_436_78),
+    (0.938_274_552_002_732_8, 0.044_277_438_817_419_81),
+    (0.974_728_555_971_309_5, 0.028_531_388_628_933_663),
+    (0.995_187_219_997_021_3, 0.012_341_229_799_987_2),
+];
+
 /// Calls `visit(x, weight)` for every point of the rule on `from..to`: the integral of f is the sum of weight f(x).
 pub fn visit(half: &[(f64, f64)], from: f64, to: f64, mut visit: impl FnMut(f64, f64)) {
     let (middle, half_length) = (0.5 * (from + to), 0.5 * (to - from));
@@ -41,7 +57,7 @@ mod tests {
     /// Degree 2n - 1 is exact, degree 2n is not: a wrong digit anywhere breaks the first.
     #[test]
     fn rules_have_their_degree() {
-        for (rule, points) in [(&POINTS_8[..], 8), (&POINTS_16[..], 16)] {
+        for (rule, points) in [(&POINTS_8[..], 8), (&POINTS_16[..], 16), (&POINTS_24[..], 24)] {
             for degree in 0..2 * points {
                 let mut sum = 0.0;
                 visit(rule, 0.0, 2.0, |x, weight| sum += weight * x.powi(degree));

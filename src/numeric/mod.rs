@@ -14,6 +14,7 @@ pub mod elliptic_arc;
 pub mod exact;
 pub mod exact3;
 pub mod gauss_legendre;
+pub mod half_turn;
 pub mod graded_cone;
 pub mod line_integral;
 pub mod plane_rectangle;

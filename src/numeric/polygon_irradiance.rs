@@ -248,7 +248,8 @@ impl<T: Real, const N: usize> Contour<'_, T, N> {
         }
         Irradiance {
             value: self.sum.to_f64(),
-            bound: self.bound + 4.0 * T::ROUNDOFF * self.absolute,
+            // And the sum is rounded to f64.
+            bound: self.bound + 4.0 * T::ROUNDOFF * self.absolute + f64::ROUNDOFF * self.sum.to_f64().abs(),
             gradient: self.gradient,
             touched: self.touched,
             escalated: false,

@@ -7,7 +7,7 @@
 //! All arguments are vectors of f32 values held in f64. No product of four of them overflows; products of four
 //! subnormals still are normal f64.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3Swizzles};
 
 use super::exact::{self, two_sum};
 
@@ -99,6 +99,15 @@ pub fn determinant(m: &DMat3) -> f64 {
     dot(m.x_axis, &cross(m.y_axis, m.z_axis))
 }
 
+/// Whether the determinant of a matrix of f32 values is 0, exactly.
+pub fn is_singular(m: &DMat3) -> bool {
+    let (minors, sizes) = (m.y_axis.cross(m.z_axis), m.y_axis.abs().yzx() * m.z_axis.abs().zxy());
+    let sizes = sizes + m.y_axis.abs().zxy() * m.z_axis.abs().yzx();
+    // The products are off by less than 2^-50 of the sizes' sum. Nothing underflows.
+    let doubtful = m.x_axis.dot(minors).abs() <= f64::EPSILON * 8.0 * m.x_axis.abs().dot(sizes);
+    doubtful && determinant(m) == 0.0
+}
+
 /// m (p_1 + p_2 + ...), at most five points of f32 values: every component rounded once.
 pub fn transform_sum(m: &DMat3, points: &[DVec3]) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|row| {
@@ -147,6 +156,10 @@ pub fn transform_pairs(m: &DMat3, points: &[DVec3]) -> Pairs {
 
 /// |v|, whatever its scale: no square leaves the range of f64.
 pub fn norm(v: DVec3) -> f64 {
+    let square = v.length_squared();
+    if (1e-250..1e250).contains(&square) {
+        return square.sqrt();
+    }
     let largest = v.abs().max_element();
     if largest > 0.0 { largest * (v / largest).length() } else { 0.0 }
 }
@@ -169,6 +182,9 @@ mod tests {
         let columns = m.map(|column| DVec3::from_array(column.map(|v| v as f64)));
         let matrix = DMat3::from_cols(columns[0], columns[1], columns[2]);
         assert_eq!(determinant(&matrix), expected as f64);
+        assert!(!is_singular(&matrix));
+        let flat = DMat3::from_cols(columns[0], columns[1], columns[0] - 3.0 * columns[1]);
+        assert!(is_singular(&flat) && is_singular(&DMat3::ZERO) && !is_singular(&DMat3::IDENTITY));
         let cofactors = cofactors(&matrix);
         for (i, column) in cofactors.iter().enumerate() {
             for (j, (high, low)) in column.iter().enumerate() {

@@ -1,20 +1,20 @@
 /*---
-summary = "The disk of the tangent circle, direct cone, exact horizon"
+summary = "The disk of the tangent circle, secular cone, exact horizon"
 source  = "ours"
 [[variant]]
-name = "direct_exact"
+name = "secular_exact"
 defines = { EXACT_HORIZON = 1 }
 [[variant]]
-name = "direct_lut"
-summary = "The disk of the tangent circle, direct cone, horizon by the table of spheres"
+name = "secular_lut"
+summary = "The disk of the tangent circle, secular cone, horizon by the table of spheres"
 tables = { sphere_lut = "buffer" }
 [[variant]]
-name = "direct_sphere_analytic"
-summary = "The disk of the tangent circle, direct cone, an equal-area sphere clipped by the stable closed form"
+name = "secular_sphere_analytic"
+summary = "The disk of the tangent circle, secular cone, an equal-area sphere clipped by the stable closed form"
 defines = { HORIZON = 3 }
 [[variant]]
-name = "direct_rational"
-summary = "The disk of the tangent circle, direct cone, no clipping but a rational fit"
+name = "secular_rational"
+summary = "The disk of the tangent circle, secular cone, no clipping but a rational fit"
 defines = { HORIZON = 2 }
 ---*/
 
@@ -29,7 +29,7 @@ defines = { HORIZON = 2 }
 //   direct_sphere_analytic   31% 3e-2      0 5e-7  1.3% 2e-2  0.011% 1e-2      74% 3e-2  16% 3e-2  1.4% 5e+12
 //   direct_rational          64% 2e-1    73% 1e-1   16% 1e-1   0.28% 3e-2      99% 2e-1  51% 2e-1   15% 5e+12
 
-#include "common/disk_direct.glsl"
+#include "common/disk_secular.glsl"
 #include "common/sphere_disk.glsl"
 
 float ltc_sphere(mat3 minv, vec3 center, float radius)
@@ -41,5 +41,5 @@ float ltc_sphere(mat3 minv, vec3 center, float radius)
     if (!sphere_disk(C, radius * scale, v1, v2)) {
         return radius == 0.0 ? 0.0 : 1.0;
     }
-    return disk_direct(minv, C, v1, v2);
+    return disk_secular(minv, C, v1, v2);
 }

@@ -1,16 +1,16 @@
 /*---
-summary = "The ellipsoid's ellipse by M = R D (two matrix products fewer), direct cone, exact horizon"
+summary = "The ellipsoid's ellipse by M = R D (two matrix products fewer), secular cone, exact horizon"
 source  = "Heitz, Analytical calculation of the solid angle subtended by an arbitrarily positioned ellipsoid, 2016, with M = R D; cone and horizon ours"
 [[variant]]
-name = "direct_exact"
+name = "secular_exact"
 defines = { EXACT_HORIZON = 1 }
 [[variant]]
-name = "direct_lut"
-summary = "The ellipsoid's ellipse by M = R D, direct cone, horizon by the table of spheres"
+name = "secular_lut"
+summary = "The ellipsoid's ellipse by M = R D, secular cone, horizon by the table of spheres"
 tables = { sphere_lut = "buffer" }
 [[variant]]
-name = "direct_rational"
-summary = "The ellipsoid's ellipse by M = R D, direct cone, no clipping but a rational fit"
+name = "secular_rational"
+summary = "The ellipsoid's ellipse by M = R D, secular cone, no clipping but a rational fit"
 defines = { HORIZON = 2 }
 ---*/
 
@@ -26,7 +26,7 @@ defines = { HORIZON = 2 }
 //   direct_lut        46% 5e-2  37% 8e-2  0.022% 6e-3      98% 5e-2  14% 1e0
 //   direct_rational   73% 2e-1  51% 2e-1   0.44% 2e-2     100% 2e-1  58% 1e0
 
-#include "common/disk_direct.glsl"
+#include "common/disk_secular.glsl"
 #include "common/ellipsoid_disk.glsl"
 
 float ltc_ellipsoid(mat3 minv, vec3 center, vec4 rotation, vec3 radius)
@@ -39,5 +39,5 @@ float ltc_ellipsoid(mat3 minv, vec3 center, vec4 rotation, vec3 radius)
     if (seen < 1) {
         return seen < 0 ? 1.0 : 0.0;
     }
-    return disk_direct(minv, C, v1, v2);
+    return disk_secular(minv, C, v1, v2);
 }
