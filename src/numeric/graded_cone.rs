@@ -258,7 +258,7 @@ impl Principal {
         let zero = Big::ZERO;
         let (value, integrals) = if *szz <= zero {
             let value = &a * &b / &mean * &z3;
-            let whole = &tau / &mean >> 1;
+            let whole = (&tau / &mean) >> 1;
             let integrals = Integrals {
                 cc: &whole / &big,
                 ss: &whole / &small,
@@ -281,13 +281,13 @@ impl Principal {
             let (cos2, sin2) = (&cos0 * &cos_d - &sin0 * &sin_d, &sin0 * &cos_d + &cos0 * &sin_d);
             let q = |cos: &Big, sin: &Big| &big * cos * cos + &small * sin * sin;
             let (q1, q2) = (q(&cos1, &sin1), q(&cos2, &sin2));
-            let d = (&cos0 * &sin_d << 1) / root(&(&q1 * &q2));
+            let d = ((&cos0 * &sin_d) << 1) / root(&(&q1 * &q2));
             let p = &d * asinh_over(&(&d * &d * &k * &big), bits);
-            let g = (&sin0 * &sin_d << 1) / &small;
+            let g = ((&sin0 * &sin_d) << 1) / &small;
             let y = root(&(&g * &g * &k * &small));
             let x = Big::ONE + &k / &small * (&cos0 * &cos0 - &sin_d * &sin_d);
             let q = if y == zero { &g / x } else { &g * angle(&y, &x, &pi) / &y };
-            let (u, v) = (&mean * &sin_d * &cos_d << 1, &big * &cos1 * &cos2 + &small * &sin1 * &sin2);
+            let (u, v) = ((&mean * &sin_d * &cos_d) << 1, &big * &cos1 * &cos2 + &small * &sin1 * &sin2);
             let turn = if u < zero { &tau - angle(&-u, &v, &pi) } else { angle(&u, &v, &pi) };
             let j = turn / &mean;
             let area =
@@ -312,7 +312,7 @@ impl Principal {
             let integrals = Integrals {
                 cc: (&j + &of_both) / (big.clone() << 1),
                 ss: (&j - &of_both) / (small.clone() << 1),
-                cs: (&cos1 * &cos1 - &cos2 * &cos2) / (q1 * q2 << 1),
+                cs: (&cos1 * &cos1 - &cos2 * &cos2) / ((q1 * q2) << 1),
                 c: (p + of_sin) / (big << 1),
                 css,
                 s: (q - of_cos) / (small << 1),
@@ -372,7 +372,7 @@ fn positive_root(c2: &Big, c1: &Big, c0: &Big, bits: usize) -> Option<Big> {
     // Two upper bounds, one of which is near: Laguerre's, and the root without the cube.
     let mut l = ((root(&(c2 * c2 - c1 * Big::from(3))) << 1) - c2) / Big::from(3);
     if *c2 > Big::ZERO {
-        let spread = root(&(c1 * c1 + (c2 * c0 << 2)));
+        let spread = root(&(c1 * c1 + ((c2 * c0) << 2)));
         let other = if *c1 > Big::ZERO {
             (c0.clone() << 1) / (spread + c1)
         } else {
