@@ -16,7 +16,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::{DMat3, DVec3};
 
+use super::big::{self, Big};
 use super::clipped_ellipse::Cone;
+use super::cubic;
 use super::gauss_legendre::{POINTS_16, visit};
 
 /// f64's unit roundoff, 2^-53.
@@ -45,6 +47,72 @@ impl Cone {
         let gradient = axes * DMat3::from_diagonal(DVec3::new(m1, m2, m3)) * axes.transpose();
         SolidAngle { value, gradient }
     }
+}
+
+/// What twofold arithmetic may be off by, relative to the larger of what is subtracted, in a few steps.
+const TWOFOLD: f64 = 1.0 / (1u128 << 97) as f64;
+
+impl Cone {
+    /// The relative error that twofold arithmetic leaves of the solid angle, beside [`BOUND`], where the dual quadric is a
+    /// difference of squares of vectors: `sizes` has the sums of their components' squares. A solid angle changes by at most
+    /// as much as the sum of the principal minors, and twice. Infinite where the determinant has no digits.
+    pub fn doubt(&self, sizes: DVec3) -> f64 {
+        let [x, y, z, ..] = self.minors();
+        let products = sizes.x * (sizes.y + sizes.z) + sizes.y * sizes.z;
+        if self.minus_det < 1e-280 {
+            f64::INFINITY
+        } else {
+            2.0 * TWOFOLD * products / (x + y + z).value().abs()
+        }
+    }
+}
+
+/// The solid angle of the ellipse c + cos t `v1` + sin t `v2`, not in a plane with the origin, however its cone is graded;
+/// components of at most 1. Relative error [`BOUND`].
+///
+/// The invariants of the dual quadric are exact: with N = v1 x v2 its principal minors' sum is |N|^2 - |c x v1|^2 -
+/// |c x v2|^2. l is the one positive root of the cubic that they make, and (l + e1) + (l + e3) and (l + e1)(l + e3) follow.
+pub fn graded(c: DVec3, v1: DVec3, v2: DVec3) -> f64 {
+    /// Of invariants that are exact a few guard bits do.
+    const BITS: usize = 128;
+    let [c, v1, v2] = [c, v1, v2].map(big::vector);
+    let square = |v: &big::Vector| big::dot(v, v);
+    let n = big::cross(&v1, &v2);
+    let volume = big::rounded(&big::abs(big::dot(&c, &n)), BITS);
+    let c2 = big::rounded(&(square(&v1) + square(&v2) - square(&c)), BITS);
+    let c1 = square(&n) - square(&big::cross(&c, &v1)) - square(&big::cross(&c, &v2));
+    let (c1, c0) = (big::rounded(&c1, BITS), &volume * &volume);
+    let l = positive_root(&c2, &c1, &c0);
+    let (two, three) = (Big::from(2), Big::from(3));
+    let (sum, product) = (&c2 + &three * &l, (&two * &l + &c2) * &l + &c0 / &l);
+    // The largest eigenvalue near 2^500, so that the least one keeps its digits.
+    let scaled = |x: Big, powers: isize| big::nearest(&(x << (250 * powers)));
+    complete(scaled(volume, 3), scaled(l, 2), scaled(sum, 2), scaled(product, 4))
+}
+
+/// The positive root of x^3 + c2 x^2 + c1 x - c0, c0 > 0, whose roots are real: Newton's iteration from an upper bound, above
+/// which the cubic is convex.
+fn positive_root(c2: &Big, c1: &Big, c0: &Big) -> Big {
+    let (two, three) = (Big::from(2), Big::from(3));
+    // All roots squared sum up to this squared.
+    let mut x = big::root(&(c2 * c2 - &two * c1));
+    if big::nearest(c0) > 1e-280 {
+        let near = cubic::positive_root(big::nearest(c2), big::nearest(c1), big::nearest(c0));
+        x = x.min(big::rounded(&big::exact((1.0 + 2.0 * cubic::POSITIVE_ROOT_BOUND) * near), c0.precision()));
+    }
+    // A root far below the bound takes a step for each halving.
+    for _ in 0..4096 {
+        let value = ((&x + c2) * &x + c1) * &x - c0;
+        let slope = (&three * &x + &two * c2) * &x + c1;
+        let step = value / slope;
+        // The next one would be the square of it.
+        let enough = step.clone() << 60 <= x;
+        x -= step;
+        if enough {
+            break;
+        }
+    }
+    x
 }
 
 /// (4/3) `root` R_J(0, p, q, `l`) from p + q and p q, p, q >= l > 0: relative error 32 EPS beside those of the arguments.

@@ -17,14 +17,13 @@
 use glam::DVec3;
 
 use super::big::{
-    Big, PI_BITS, Symmetric, Vector, abs, angle, asinh_over, cross, dot, nearest, root, rounded, times,
-    vector,
+    Big, Symmetric, Vector, abs, angle, asinh_over, cross, dot, nearest, root, rounded, times, vector,
 };
 
 /// The first precision in bits. Most that escalates agrees with twice as many.
 const FIRST: usize = 128;
 /// The last. Eigenvalues of f32's extremes differ by 2^2200.
-const LAST: usize = PI_BITS;
+const LAST: usize = 16384;
 /// Two values agree to 2^-60.
 const AGREEMENT: isize = 60;
 /// What must be 0 is 2^-20 of a sensitivity.
@@ -88,7 +87,7 @@ impl GradedCone {
                     self.sensitivity(&exact, &cone.gradient(&integrals, bits), bits, &of_light)
             {
                 let value = nearest(&value);
-                return Irradiance { value, bound: f64::EPSILON * value, sensitivity };
+                return Irradiance { value, bound: 0.5 * f64::EPSILON * value, sensitivity };
             }
             before = Some((cone.l, value));
             bits *= 2;
