@@ -110,7 +110,7 @@ pub fn asinh_over(square: &Big, bits: usize) -> Big {
     }
     let t2 = &half * &half / (&one + &half * &half);
     let t = t2.sqrt();
-    (t * series(&t2, bits) << halvings) / s
+    ((t * series(&t2, bits)) << halvings) / s
 }
 
 /// 1 + x/3 + x^2/5 + ... for |x| <= 2^-9, to `bits`: atanh(t)/t of t^2, atan(t)/t of -t^2.
