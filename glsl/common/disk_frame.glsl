@@ -70,7 +70,6 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     vec3 area = cross(DISK_LARGE * v1, v2);
     vec3 normal = area.x * k0 + area.y * k1 + area.z * k2;
     float det = k0.z * m[0].z + k1.z * m[1].z + k2.z * m[2].z;
-    float volume = dot(area, c);
 
     DiskFrame f;
     float d11 = dot(V1, V1);
@@ -97,6 +96,7 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     float inverse_along = inversesqrt(max(axis2, DISK_SMALLEST));
     axis *= inverse_along;
     float along = axis2 * inverse_along;
+    float x = dot(C, axis);
     float normal_scale = scale_to_one(largest_component(normal));
     normal *= normal_scale;
     float normal2 = dot(normal, normal);
@@ -104,12 +104,14 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     normal *= inverse_normal;
     float across =
         normal2 * inverse_normal * (reciprocal_power_of_two(normal_scale) * (1.0 / DISK_LARGE)) * inverse_along;
-    vec3 moment = cross(c, before);
-    float x = dot(C, axis);
+    // Most of the centre of a needle that passes the point is along it, and would round what is across.
+    vec3 off = c - (x * inverse_along) * before;
+    float volume = dot(area, off);
+    vec3 moment = cross(off, before);
     float y = -dot(normal, moment.x * k0 + moment.y * k1 + moment.z * k2) * inverse_along;
     float z = det * (volume * normal_scale * inverse_normal);
     f.heights = vec3(axis.z, normal.x * axis.y - normal.y * axis.x, normal.z);
-    f.dark = normal2 < 0.5 || volume == 0.0 || det == 0.0;
+    f.dark = normal2 < 0.5 || dot(area, c) == 0.0 || det == 0.0;
 
     float near = max(max(abs(y), abs(z)), max(across, abs(x) - along));
     float end = DISK_ENDLESS * near;

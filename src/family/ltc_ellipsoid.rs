@@ -134,8 +134,9 @@ impl Problem for LtcEllipsoid {
         let axes = &rotation.columns;
         let b = axes.map(|a| a[0] * c.x + a[1] * c.y + a[2] * c.z);
         let b2 = b.map(|b| b * b);
-        let shell = r2[0] * r2[1] * r2[2];
-        let reach = b2[0] * r2[1] * r2[2] + b2[1] * r2[2] * r2[0] + b2[2] * r2[0] * r2[1];
+        let faces = [r2[1] * r2[2], r2[2] * r2[0], r2[0] * r2[1]];
+        let shell = r2[0] * faces[0];
+        let reach = b2[0] * faces[0] + b2[1] * faces[1] + b2[2] * faces[2];
         let outside = (reach - shell).value();
         if outside <= 0.0 {
             if shell.value() == 0.0 {
@@ -146,18 +147,19 @@ impl Problem for LtcEllipsoid {
             return truth.scalar(0, 1.0, 0.0, if near { f64::INFINITY } else { 0.0 });
         }
 
-        let cc = exact3::square(&c.to_array().map(Twofold::from));
-        let solid: [Twofold; 6] = {
-            let squares = axes.map(|a| exact3::square(&a));
-            std::array::from_fn(|i| squares[0][i] * r2[0] + squares[1][i] * r2[1] + squares[2][i] * r2[2])
-        };
-        let own: [Twofold; 6] = std::array::from_fn(|i| solid[i] - cc[i]);
         let determinant = exact3::determinant(minv[0], minv[1], minv[2]) * by_matrix * by_matrix * by_matrix;
         let matrix = DMat3::from_cols(m[0], m[1], m[2]);
+        // Minv S Minv^T from the images of the semi-axes and the centre.
+        let squares = [0, 1, 2].map(|k| {
+            let [x, y, z] = axes[k].map(|component| component * r[k]);
+            exact3::square(&[0, 1, 2].map(|row| x * m[0][row] + y * m[1][row] + z * m[2][row]))
+        });
+        let image = exact3::transformed(&m, c);
+        let cc = exact3::square(&image);
         let cone = Cone {
-            dual: exact3::congruence(&m, &own),
+            dual: std::array::from_fn(|i| squares[0][i] + squares[1][i] + squares[2][i] - cc[i]),
             minus_det: determinant * determinant * outside,
-            towards: matrix * c,
+            towards: DVec3::from_array(image.map(|component| component.value())),
         };
         let size = DMat3::from_cols(m[0].abs(), m[1].abs(), m[2].abs());
         let (of_center, of_radius) = (size * c.abs(), size * DVec3::splat(r.abs().max_element()));
@@ -167,16 +169,19 @@ impl Problem for LtcEllipsoid {
             return truth.scalar(0, 0.0, 0.0, if below { 0.0 } else { f64::INFINITY });
         }
         let found = cone.irradiance(terms).and_then(|light| {
+            let turned = rotation.matrix();
+            let solid = turned * DMat3::from_diagonal(r * r) * turned.transpose();
+            let own = solid - DMat3::from_cols(c * c.x, c * c.y, c * c.z);
             let by_own = matrix.transpose() * light.gradient * matrix;
-            let by_minv = 2.0 * light.gradient * matrix * exact3::symmetric(&own);
+            let by_minv = 2.0 * light.gradient * matrix * own;
             let (mut of_minv, mut of_light) = (Changes::default(), Changes::default());
             (0..3).for_each(|k| of_minv.add(by_minv.col(k) * m[k]));
             of_light.add(-2.0 * (by_own * c) * c);
             of_light.add(DVec3::from_array([0, 1, 2].map(|k| {
-                let axis = DVec3::from_array(axes[k].map(|component| component.value()));
+                let axis = turned.col(k);
                 2.0 * r[k] * r[k] * axis.dot(by_own * axis)
             })));
-            let of_rotation = rotation.sensitivity(exact3::symmetric(&solid) * by_own);
+            let of_rotation = rotation.sensitivity(solid * by_own);
             Some((light, of_minv.size(of_light)? + of_rotation))
         });
         let Some((light, sensitivity)) = found else {

@@ -46,6 +46,7 @@ pub fn sum(terms: &[f64]) -> f64 {
 }
 
 /// a + b as an exact pair: the rounded sum and its rounding error (Knuth).
+#[inline]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;

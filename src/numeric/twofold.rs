@@ -21,12 +21,14 @@ impl Twofold {
     pub const ZERO: Twofold = Twofold { hi: 0.0, lo: 0.0 };
 
     /// The exact product of two f64.
+    #[inline]
     pub fn product(a: f64, b: f64) -> Self {
         let (hi, lo) = two_product(a, b);
         Twofold { hi, lo }
     }
 
     /// The sum of three f64.
+    #[inline]
     pub fn sum3(a: f64, b: f64, c: f64) -> Self {
         let (sum, error) = two_sum(a, b);
         let (sum, further) = two_sum(sum, c);
@@ -34,22 +36,26 @@ impl Twofold {
     }
 
     /// This times a power of two, exactly.
+    #[inline]
     pub fn scaled(self, power: f64) -> Self {
         Twofold { hi: self.hi * power, lo: self.lo * power }
     }
 
     /// The nearest f64.
+    #[inline]
     pub fn value(self) -> f64 {
         self.hi
     }
 
     /// One over this.
+    #[inline]
     pub fn recip(self) -> Self {
         let first = 1.0 / self.hi;
         let residual = Twofold::from(1.0) - self * first;
         Twofold::from(first) + residual * first
     }
 
+    #[inline]
     fn normalized(hi: f64, lo: f64) -> Self {
         let sum = hi + lo;
         Twofold { hi: sum, lo: lo - (sum - hi) }
@@ -57,6 +63,7 @@ impl Twofold {
 }
 
 impl From<f64> for Twofold {
+    #[inline]
     fn from(hi: f64) -> Self {
         Twofold { hi, lo: 0.0 }
     }
@@ -65,6 +72,7 @@ impl From<f64> for Twofold {
 impl Add for Twofold {
     type Output = Self;
 
+    #[inline]
     fn add(self, other: Self) -> Self {
         let (sum, error) = two_sum(self.hi, other.hi);
         let (low, lowest) = two_sum(self.lo, other.lo);
@@ -76,6 +84,7 @@ impl Add for Twofold {
 impl Neg for Twofold {
     type Output = Self;
 
+    #[inline]
     fn neg(self) -> Self {
         Twofold { hi: -self.hi, lo: -self.lo }
     }
@@ -84,6 +93,7 @@ impl Neg for Twofold {
 impl Sub for Twofold {
     type Output = Self;
 
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -92,6 +102,7 @@ impl Sub for Twofold {
 impl Mul for Twofold {
     type Output = Self;
 
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let (hi, lo) = two_product(self.hi, other.hi);
         Twofold::normalized(hi, lo + (self.hi * other.lo + self.lo * other.hi))
@@ -101,6 +112,7 @@ impl Mul for Twofold {
 impl Mul<f64> for Twofold {
     type Output = Self;
 
+    #[inline]
     fn mul(self, factor: f64) -> Self {
         let (hi, lo) = two_product(self.hi, factor);
         Twofold::normalized(hi, lo + self.lo * factor)
@@ -108,6 +120,7 @@ impl Mul<f64> for Twofold {
 }
 
 /// a b as an exact pair: the rounded product and its rounding error (Dekker).
+#[inline]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     /// 2^27 + 1 splits 53 bits into 26 and 26 with a sign.
     const SPLIT: f64 = 134_217_729.0;
