@@ -13,10 +13,9 @@
 
 use glam::{DVec2, DVec3};
 
-use super::problem::{CERTIFIED, Landmark, Output, Problem, Quantity, Relation, Scenario, Truth};
+use super::problem::{Landmark, Output, Problem, Quantity, Relation, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::exact;
-use crate::numeric::spacing::UNIT_ROUNDOFF;
 use crate::sample::{Draw, landmarks};
 
 pub(super) struct EllipseAxes;
@@ -28,6 +27,8 @@ const MINOR_LEN: usize = 3;
 
 /// f64's unit roundoff, 2^-53.
 const EPS: f64 = f64::EPSILON / 2.0;
+/// The angle in radians that exact sums are taken for.
+const ACCURACY: f64 = 1.0 / (1u64 << 34) as f64;
 
 impl Problem for EllipseAxes {
     fn name(&self) -> &'static str {
@@ -138,7 +139,7 @@ impl Problem for EllipseAxes {
         // Each dot product of exact terms is off by at most 2 EPS of its absolute sum, so (tau, d12) by 4 EPS sum; half
         // the angle by which that turns (tau, d12) is the most by which the axes turn.
         let mut turn = 2.0 * EPS * sum / h;
-        if !(turn <= 0.5 * CERTIFIED * UNIT_ROUNDOFF) {
+        if !(turn <= ACCURACY) {
             truth.escalate();
             let terms = |a: DVec3, b: DVec3| (a * b).to_array();
             let ([a, b, c], [d, e, f]) = (terms(v1, v1), terms(v2, v2));
@@ -253,6 +254,7 @@ fn edge(draw: &mut Draw, row: &mut [f32]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::family::CERTIFIED;
     use crate::sample::Stream;
 
     fn truth_of(input: &[f32]) -> Truth {
