@@ -105,7 +105,7 @@ pub fn asinh_over(square: &Big, bits: usize) -> Big {
     // sinh(x/2) = sinh x/sqrt(2 (1 + cosh x)); 2^20 bits of exponent are gone after 20.
     while half.clone() << 5 > one && halvings < 64 {
         let cosh = (&one + &half * &half).sqrt();
-        half = half / ((one.clone() + cosh) << 1).sqrt();
+        half /= ((one.clone() + cosh) << 1).sqrt();
         halvings += 1;
     }
     let t2 = &half * &half / (&one + &half * &half);
