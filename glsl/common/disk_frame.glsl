@@ -111,9 +111,10 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     float y = -dot(normal, moment.x * k0 + moment.y * k1 + moment.z * k2) * inverse_along;
     float z = det * (volume * normal_scale * inverse_normal);
     f.heights = vec3(axis.z, normal.x * axis.y - normal.y * axis.x, normal.z);
-    f.dark = normal2 < 0.5 || dot(area, c) == 0.0 || det == 0.0;
 
     float near = max(max(abs(y), abs(z)), max(across, abs(x) - along));
+    // Edge-on exactly: a product that rounds to 0 alone may be a needle's.
+    f.dark = normal2 < 0.5 || det == 0.0 || (dot(area, c) == 0.0 && abs(z) <= 1.0e-6 * near);
     float end = DISK_ENDLESS * near;
     bool endless = along > end;
 #ifdef DISK_PRINCIPAL
