@@ -6,7 +6,7 @@
 //!
 //! The gradient is G = (sqrt(e1 e3 l)/2pi) times the integral of p.z n n^T/|p|^4 over the visible u, with the tangent planes'
 //! normals n = (cos u/sqrt(e1), sin u/sqrt(e3), -1/sqrt(l)) in the principal frame. With q = |p|^2 = A cos^2 u + B sin^2 u and
-//! [f] the difference between the ends,
+//! `[f]` the difference between the ends,
 //!
 //! ```text
 //! 2 A int cos^2/q^2 = J + [sin cos/q]     2 B int sin^2/q^2 = J - [sin cos/q]     J = int 1/q
