@@ -1,7 +1,7 @@
 /*---
 summary = "The ellipse's own axes in its plane, secular equation by two poles and Halley's step in shares of it; exact horizon"
 source  = "ours; the angle as in Jacobi's method"
-tried   = "What direct.comp says of the frame and the horizon holds here too. Axes in space, cone axes and their principal frame: 123 ns beside 92 of talk2017 and 51 of an empty kernel, on a busy machine. Three rational steps: 1.12 of talk2017's time for 0.94"
+tried   = "What direct.comp says of the frame and the horizon holds here too. Axes in space, cone axes and their principal frame: 123 ns beside 92 of talk2017 and 51 of an empty kernel, on a busy machine. Three rational steps for one and Halley's: 1.12 of the time. It takes 0.98 of talk2017's time on lavapipe, direct_exact 1.02"
 [[variant]]
 name = "secular_exact"
 defines = { EXACT_HORIZON = 1 }
