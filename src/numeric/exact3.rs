@@ -35,22 +35,6 @@ pub fn determinant(a: DVec3, b: DVec3, c: DVec3) -> f64 {
     exact::sum(&terms)
 }
 
-/// The cross products of each two columns, those of the matrix that maps areas as M maps lengths.
-pub fn cofactors(m: &[DVec3; 3]) -> [Vector; 3] {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| crossed(m[i], m[j]))
-}
-
-/// a x b for f32 values: relative error 2^-104 of the largest product of a component.
-pub fn crossed(a: DVec3, b: DVec3) -> Vector {
-    let minor = |p: f64, q: f64, r: f64, s: f64| Twofold::product(p, q) - Twofold::product(r, s);
-    [minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)]
-}
-
-/// The sum of each column times its component.
-pub fn combined(columns: &[Vector; 3], v: &Vector) -> Vector {
-    [0, 1, 2].map(|row| columns[0][row] * v[0] + columns[1][row] * v[1] + columns[2][row] * v[2])
-}
-
 /// The power of two that brings the largest component of the vectors into 1/2..1; 1 for zero vectors.
 pub fn scale_to_one(vectors: &[Vector]) -> f64 {
     let largest = vectors.iter().flatten().fold(0.0f64, |largest, c| largest.max(c.value().abs()));
