@@ -78,7 +78,10 @@ float clipped_ellipse(DiskCone cone, float szz)
     float scale = cone.volume * root2;
     float dphi = arctangent_upper(scale, swing + l * szz);
     float sum = cone.whole * turn + dphi - scale * (w1 * first + w2 * second);
-    return clamp(sum * (1.0 / CLIPPED_TURN), 0.0, 1.0);
+    // No part gives more than all of the cone does from straight above. Where the horizon only touches a light that looks
+    // like nothing, the angles are rounding.
+    float most = sqrt(cone.product / max(l * (l + cone.sum) + cone.product, DISK_SMALLEST));
+    return clamp(sum * (1.0 / CLIPPED_TURN), 0.0, most);
 }
 
 #endif

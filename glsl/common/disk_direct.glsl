@@ -36,13 +36,11 @@ float confocal_step(Confocal k, float l)
 
 // (p, q) and (h1, h2) without the axes' directions, for a start: exact but for their cancellation in circles, where p and
 // q are of no account.
-float confocal_start(Confocal k)
+float direct_start(Confocal k, float inverse_h1, float inverse_split)
 {
-    float split = sqrt(max(k.sum * k.sum - 4.0 * k.product, 0.0));
-    float h1 = 0.5 * (k.sum + split);
-    float h2 = k.product / max(h1, DISK_SMALLEST);
-    float q = clamp((k.beta - h2 * k.alpha) / max(split, DISK_SMALLEST), 0.0, k.alpha);
-    return confocal_start(k.alpha - q, h1, q, h2, k.z);
+    float h2 = k.product * inverse_h1;
+    float q = clamp((k.beta - h2 * k.alpha) * inverse_split, 0.0, k.alpha);
+    return confocal_start(k.alpha - q, k.sum - h2, q, h2, k.z);
 }
 
 // l from a start: a step that is safe from anywhere, then Householder's of third order on
@@ -71,8 +69,8 @@ float confocal_lambda(Confocal k, float l)
 DiskCone direct_cone(DiskFrame f, Confocal k, float l, vec2 plane)
 {
     float square = (l + k.sum) * l + k.product;
-    float inverse_root = inversesqrt(square);
-    float inverse = inverse_root * inverse_root;
+    float inverse = 1.0 / square;
+    float inverse_root = sqrt(inverse);
     float inverse_l = 1.0 / l;
     vec3 w = vec3(plane * inverse, f.center.z * inverse_l);
     float up = dot(w, f.heights);
@@ -112,8 +110,8 @@ float disk_direct(mat3 minv, vec3 center, vec3 v1, vec3 v2)
     k.beta = of_a * of_a + of_b * of_b;
     k.gamma = on_a * on_a + on_b * on_b;
     k.kappa = dot(turned, turned);
-    float l = confocal_lambda(k, confocal_start(k));
-    float result = disk_irradiance(direct_cone(f, k, l, l * c + turned), f.rise, f.height);
+    float l = confocal_lambda(k, direct_start(k, f.inverse_h1, f.inverse_split));
+    float result = disk_irradiance(direct_cone(f, k, l, l * c + turned), f.rise2, f.height);
     return f.dark ? 0.0 : result;
 }
 

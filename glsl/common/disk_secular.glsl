@@ -92,7 +92,7 @@ DiskCone secular_cone(DiskFrame f)
 float disk_secular(mat3 minv, vec3 center, vec3 v1, vec3 v2)
 {
     DiskFrame f = disk_frame(minv, center, v1, v2);
-    float result = disk_irradiance(secular_cone(f), f.rise, f.height);
+    float result = disk_irradiance(secular_cone(f), f.rise2, f.height);
     return f.dark ? 0.0 : result;
 }
 

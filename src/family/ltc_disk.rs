@@ -424,6 +424,7 @@ mod tests {
 
     use super::*;
     use crate::family::problem::CERTIFIED;
+    use crate::numeric::graded_cone::Agreement;
     use crate::sample::Stream;
 
     fn truth_of(input: &[f32]) -> Truth {
@@ -587,7 +588,7 @@ mod tests {
     #[test]
     fn both_arithmetics_agree() {
         for scenario in LtcDisk.scenarios() {
-            let (mut compared, mut worst) = (0, 0.0f64);
+            let mut agreement = Agreement::default();
             each(scenario.name, 400, |row, truth| {
                 let (value, sensitivity) = (truth.values()[0], truth.sensitivities()[0]);
                 if value == 0.0 {
@@ -595,15 +596,9 @@ mod tests {
                 }
                 let (minv, light) = (exact3::columns(&row[MINV..]), exact3::columns(&row[CENTER..]));
                 let exact = graded(minv, light);
-                let sensitivity = sensitivity - crossing(&minv, &light, value);
-                // The bound that more precision is asked for at.
-                assert!((value - exact.value).abs() <= 1.5e-11 * exact.value, "{row:?}: {truth:?} {exact:?}");
-                assert!(exact.bound <= 1e-15 * exact.value, "{row:?}: {exact:?}");
-                worst = worst.max((sensitivity / exact.sensitivity - 1.0).abs());
-                compared += 1;
+                agreement.add(value, sensitivity - crossing(&minv, &light, value), exact, row);
             });
-            // A percent is promised; almost round cones are taken as round.
-            assert!(worst < 0.01 && compared > 100, "{}: {worst} of {compared}", scenario.name);
+            agreement.check(scenario.name);
         }
     }
 

@@ -271,6 +271,7 @@ fn edge(draw: &mut Draw, row: &mut [f32]) {
 mod tests {
     use super::*;
     use crate::family::problem::CERTIFIED;
+    use crate::numeric::graded_cone::Agreement;
     use crate::sample::Stream;
 
     fn truth_of(input: &[f32]) -> Truth {
@@ -325,7 +326,7 @@ mod tests {
     #[test]
     fn both_arithmetics_agree() {
         for scenario in LtcSphere.scenarios() {
-            let (mut compared, mut worst) = (0, 0.0f64);
+            let mut agreement = Agreement::default();
             Stream::new(4, scenario.name).visit(0, 400, |_, draw| {
                 let mut row = [0.0; 13];
                 (scenario.draw)(draw, &mut row);
@@ -340,13 +341,9 @@ mod tests {
                     exact3::vector(&row[CENTER..]),
                     f64::from(row[RADIUS]),
                 );
-                // The bound that more precision is asked for at.
-                assert!((value - exact.value).abs() <= 1.5e-11 * exact.value, "{row:?}: {truth:?} {exact:?}");
-                worst = worst.max((sensitivity / exact.sensitivity - 1.0).abs());
-                compared += 1;
+                agreement.add(value, sensitivity, exact, &row);
             });
-            // A percent is promised; almost round cones are taken as round.
-            assert!(worst < 0.01 && compared > 100, "{}: {worst} of {compared}", scenario.name);
+            agreement.check(scenario.name);
         }
     }
 

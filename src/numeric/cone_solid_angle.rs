@@ -18,8 +18,8 @@ use glam::{DMat3, DVec3};
 
 use super::big::{self, Big};
 use super::clipped_ellipse::Cone;
-use super::cubic;
 use super::gauss_legendre::{POINTS_16, visit};
+use super::graded_cone;
 
 /// f64's unit roundoff, 2^-53.
 const EPS: f64 = f64::EPSILON / 2.0;
@@ -78,41 +78,16 @@ pub fn graded(c: DVec3, v1: DVec3, v2: DVec3) -> f64 {
     let [c, v1, v2] = [c, v1, v2].map(big::vector);
     let square = |v: &big::Vector| big::dot(v, v);
     let n = big::cross(&v1, &v2);
-    let volume = big::rounded(&big::abs(big::dot(&c, &n)), BITS);
-    let c2 = big::rounded(&(square(&v1) + square(&v2) - square(&c)), BITS);
+    let (volume, c2) = (big::abs(big::dot(&c, &n)), square(&v1) + square(&v2) - square(&c));
     let c1 = square(&n) - square(&big::cross(&c, &v1)) - square(&big::cross(&c, &v2));
-    let (c1, c0) = (big::rounded(&c1, BITS), &volume * &volume);
-    let l = positive_root(&c2, &c1, &c0);
+    let c0 = &volume * &volume;
+    let [volume, c2, c1, c0] = [volume, c2, c1, c0].map(|x| big::rounded(&x, BITS));
+    let l = graded_cone::positive_root(&c2, &c1, &c0, BITS).expect("a cubic of three real roots");
     let (two, three) = (Big::from(2), Big::from(3));
     let (sum, product) = (&c2 + &three * &l, (&two * &l + &c2) * &l + &c0 / &l);
     // The largest eigenvalue near 2^500, so that the least one keeps its digits.
     let scaled = |x: Big, powers: isize| big::nearest(&(x << (250 * powers)));
     complete(scaled(volume, 3), scaled(l, 2), scaled(sum, 2), scaled(product, 4))
-}
-
-/// The positive root of x^3 + c2 x^2 + c1 x - c0, c0 > 0, whose roots are real: Newton's iteration from an upper bound, above
-/// which the cubic is convex.
-fn positive_root(c2: &Big, c1: &Big, c0: &Big) -> Big {
-    let (two, three) = (Big::from(2), Big::from(3));
-    // All roots squared sum up to this squared.
-    let mut x = big::root(&(c2 * c2 - &two * c1));
-    if big::nearest(c0) > 1e-280 {
-        let near = cubic::positive_root(big::nearest(c2), big::nearest(c1), big::nearest(c0));
-        x = x.min(big::rounded(&big::exact((1.0 + 2.0 * cubic::POSITIVE_ROOT_BOUND) * near), c0.precision()));
-    }
-    // A root far below the bound takes a step for each halving.
-    for _ in 0..4096 {
-        let value = ((&x + c2) * &x + c1) * &x - c0;
-        let slope = (&three * &x + &two * c2) * &x + c1;
-        let step = value / slope;
-        // The next one would be the square of it.
-        let enough = step.clone() << 60 <= x;
-        x -= step;
-        if enough {
-            break;
-        }
-    }
-    x
 }
 
 /// (4/3) `root` R_J(0, p, q, `l`) from p + q and p q, p, q >= l > 0: relative error 32 EPS beside those of the arguments.

@@ -17,7 +17,7 @@
 use glam::DVec3;
 
 use super::big::{
-    Big, Symmetric, Vector, abs, angle, asinh_over, cross, dot, nearest, root, rounded, times, vector,
+    self, Big, Symmetric, Vector, abs, angle, asinh_over, cross, dot, nearest, root, rounded, times, vector,
 };
 
 /// The first precision in bits. Most that escalates agrees with twice as many.
@@ -63,9 +63,12 @@ impl GradedCone {
     /// The irradiance on a plane with normal +z, and the sum over all inputs x of |x dE/dx|: those of Minv, and by
     /// `of_light` of dE/dO those of the light.
     pub fn irradiance(&self, of_light: impl Fn(&Symmetric) -> Big) -> Irradiance {
-        let exact = self.exact();
         let dark = Irradiance { value: 0.0, bound: 0.0, sensitivity: 0.0 };
-        if exact.minus_det <= Big::ZERO || (exact.dual[2] <= Big::ZERO && exact.towards[2] <= Big::ZERO) {
+        if self.is_below() {
+            return dark;
+        }
+        let exact = self.exact();
+        if exact.minus_det <= Big::ZERO {
             return dark;
         }
         let mut before: Option<(Big, Big)> = None;
@@ -97,6 +100,12 @@ impl GradedCone {
             bound: 1.0,
             sensitivity: f64::INFINITY,
         }
+    }
+
+    /// Whether nothing of it is above the horizon.
+    fn is_below(&self) -> bool {
+        let up = self.minv.map(|column| big::exact(column.z));
+        dot(&up, &vector(self.center)) <= Big::ZERO && dot(&up, &times(&self.own, &up)) <= Big::ZERO
     }
 
     fn exact(&self) -> Exact {
@@ -364,7 +373,7 @@ fn normalized(v: Vector) -> Option<Vector> {
 
 /// The one positive root of l^3 + c2 l^2 + c1 l - c0, all of whose roots are real: within a few roundings, for the slope
 /// there is (l + e1)(l + e3), and no term is larger than a few times that and l.
-fn positive_root(c2: &Big, c1: &Big, c0: &Big, bits: usize) -> Option<Big> {
+pub(super) fn positive_root(c2: &Big, c1: &Big, c0: &Big, bits: usize) -> Option<Big> {
     let all = [c2, c1, c0];
     let [c2, c1, c0] = all.map(|c| rounded(c, COARSE));
     let [c2, c1, c0] = [&c2, &c1, &c0];
@@ -408,10 +417,35 @@ fn newton(c2: &Big, c1: &Big, c0: &Big, mut l: Big, bits: usize) -> Option<Big> 
     None
 }
 
+/// What the families' tests have compared of f64's results with those here.
+#[cfg(test)]
+#[derive(Default)]
+pub struct Agreement {
+    compared: usize,
+    worst: f64,
+}
+
+#[cfg(test)]
+impl Agreement {
+    /// A configuration that is neither dark nor looked at from within.
+    pub fn add(&mut self, value: f64, sensitivity: f64, exact: Irradiance, row: &[f32]) {
+        // The bound that more precision is asked for at.
+        assert!((value - exact.value).abs() <= 1.5e-11 * exact.value, "{row:?}: {value} {exact:?}");
+        assert!(exact.bound <= 1e-15 * exact.value, "{row:?}: {exact:?}");
+        self.worst = self.worst.max((sensitivity / exact.sensitivity - 1.0).abs());
+        self.compared += 1;
+    }
+
+    /// Enough of them agreed; of sensitivities a percent is promised.
+    pub fn check(self, scenario: &str) {
+        let Agreement { compared, worst } = self;
+        assert!(worst < 0.01 && compared > 100, "{scenario}: {worst} of {compared}");
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numeric::big;
 
     /// A circle of radius r straight above at 1 under a Minv that stretches z by s: (r/s)^2/(1 + (r/s)^2), and of every
     /// height what scale leaves of it.
