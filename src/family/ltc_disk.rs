@@ -243,13 +243,13 @@ impl Problem for LtcDisk {
         let Some((seen, sensitivity)) = found else {
             truth.escalate();
             let seen = graded(minv, light);
-            let crossing = crossing(&minv, &light, seen.value);
-            return truth.scalar(0, seen.value, seen.bound, seen.sensitivity + crossing);
+            let jumps = jumps(&minv, &light, seen.value);
+            return truth.scalar(0, seen.value, seen.bound, seen.sensitivity + jumps);
         };
         if seen.escalated {
             truth.escalate();
         }
-        truth.scalar(0, seen.value, seen.bound, sensitivity + crossing(&minv, &light, seen.value));
+        truth.scalar(0, seen.value, seen.bound, sensitivity + jumps(&minv, &light, seen.value));
     }
 }
 
@@ -286,25 +286,79 @@ fn sensitivity(
     of_minv.size(of_light)
 }
 
-/// What a change of the inputs does that takes the point through the light, of which no derivative knows: the irradiance's
-/// jump to the other half space, times the change of the volume for a relative change of every input by one; 0 where
-/// roundings are far from taking it there.
-fn crossing(minv: &[DVec3; 3], light: &[DVec3; 3], value: f64) -> f64 {
-    let change = |[a, b, c]: &[DVec3; 3]| {
-        let [of_a, of_b, of_c] = [b.cross(*c), c.cross(*a), a.cross(*b)];
-        let sum = ((*a * of_a).abs() + (*b * of_b).abs() + (*c * of_c).abs()).element_sum();
-        sum / a.dot(of_a).abs()
-    };
-    let change = change(minv) + change(light);
-    if !(change * UNIT_ROUNDOFF > 1.0 / 16.0) {
-        return 0.0;
-    }
-    let [center, v1, v2] = *light;
-    let normal = v1.cross(v2);
-    let size = normal.length_squared();
-    let place = DVec2::new(center.cross(v2).dot(normal) / size, v1.cross(center).dot(normal) / size);
+/// A jump that is further than 16 roundings of all inputs away is none.
+const NEAR: f64 = 16.0 * UNIT_ROUNDOFF;
+
+/// What changes of the inputs do of which no derivative knows: the irradiance's jumps where they take the point through the
+/// light or, in its plane, over its rim, times how far a relative change of every input by one takes it, over how far away
+/// that is; 0 where roundings do not take it there.
+fn jumps(minv: &[DVec3; 3], light: &[DVec3; 3], value: f64) -> f64 {
+    let plane = volume_change(minv) + volume_change(light);
+    let foot = Foot::new(minv, light);
+    let mut sum = 0.0;
     // In its plane, the light is half of all directions to who is within, and nothing to others.
-    if place.length_squared() < 1.0 { (1.0 - 2.0 * value).abs() * change } else { 0.0 }
+    if plane * NEAR > 1.0 && foot.radius < 1.0 {
+        sum += (1.0 - 2.0 * value).abs() * plane;
+    }
+    let rim = foot.moves / (foot.radius - 1.0).abs();
+    // Above the plane by no more than the roundings move it within, it goes over the rim at once.
+    if rim * NEAR > 1.0 && foot.height.abs() < NEAR * foot.moves * foot.reach {
+        let within = 0.5 * (1.0 + foot.height.signum() * foot.normal.z);
+        sum += rim * if foot.radius < 1.0 { value } else { within };
+    }
+    sum
+}
+
+/// The relative change of a determinant for one of all its entries by one.
+fn volume_change([a, b, c]: &[DVec3; 3]) -> f64 {
+    let [of_a, of_b, of_c] = [b.cross(*c), c.cross(*a), a.cross(*b)];
+    let sum = ((*a * of_a).abs() + (*b * of_b).abs() + (*c * of_c).abs()).element_sum();
+    sum / a.dot(of_a).abs()
+}
+
+/// Where the point's foot is in the light's plane, after Minv.
+struct Foot {
+    /// Of the plane.
+    normal: DVec3,
+    /// Of the plane over the point, along the normal.
+    height: f64,
+    /// From the centre, in units of the light's own length in that direction.
+    radius: f64,
+    /// What a relative change of every input by one changes of that.
+    moves: f64,
+    /// A radius of one across the rim.
+    reach: f64,
+}
+
+impl Foot {
+    fn new(minv: &[DVec3; 3], [c, a, b]: &[DVec3; 3]) -> Self {
+        // Cofactors map cross products, however the matrix is graded.
+        let cofactors =
+            DMat3::from_cols(minv[1].cross(minv[2]), minv[2].cross(minv[0]), minv[0].cross(minv[1]));
+        let minv = DMat3::from_cols(minv[0], minv[1], minv[2]);
+        let area = a.cross(*b);
+        let normal = cofactors * area;
+        let size = normal.length();
+        let normal = normal / size;
+        let weights = cofactors.transpose() * normal / size;
+        let terms = |p: &DVec3, q: &DVec3| {
+            let cross = |p: DVec3, q: DVec3| {
+                DVec3::new(p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x)
+            };
+            weights.abs().dot(cross(p.abs(), q.abs()))
+        };
+        let at = DVec2::new(weights.dot(c.cross(*b)), weights.dot(a.cross(*c)));
+        let moved = 2.0 * (DVec2::new(terms(c, b), terms(a, c)) + at.abs() * terms(a, b));
+        let radius = at.length();
+        let tangent = minv * (at.x * *b - at.y * *a) / radius;
+        Foot {
+            normal,
+            height: minv.determinant() * (c.dot(area) / size),
+            radius,
+            moves: at.abs().dot(moved) / radius,
+            reach: size / tangent.length(),
+        }
+    }
 }
 
 /// Centre and conjugate semi-axes after Minv.
@@ -596,7 +650,7 @@ mod tests {
                 }
                 let (minv, light) = (exact3::columns(&row[MINV..]), exact3::columns(&row[CENTER..]));
                 let exact = graded(minv, light);
-                agreement.add(value, sensitivity - crossing(&minv, &light, value), exact, row);
+                agreement.add(value, sensitivity, jumps(&minv, &light, value), exact, row);
             });
             agreement.check(scenario.name);
         }
@@ -693,6 +747,42 @@ mod tests {
         });
         // Between 1e-9 and 1e-7, within the light: a third of all, and the side turns for some of those.
         assert!(flips > 100, "{flips}");
+    }
+
+    /// In the light's plane half of all directions are a rounding from nothing at the rim; not so above it, nor further in.
+    #[test]
+    fn the_rim_is_a_rounding_away() {
+        let mut jumps = 0;
+        Stream::new(10, "rim").visit(0, 2_000, |index, draw| {
+            let (cos, sin) = draw.angle();
+            let off = draw.sign() * draw.log_uniform(1e-9, 1e-3);
+            let height = draw.log_uniform(1e-12, 1e-3);
+            let mut row = [0.0; 18];
+            // A plane whose points are f32's: one of the coordinates is the height.
+            let (x, y) = draw.angle();
+            let (a, b) = (DVec2::new(x, y), DVec2::new(-y, x));
+            let center = (1.0 + off) * (cos * a + sin * b);
+            let turned = |v: DVec2, z: f64| DVec3::new(v.x, v.y, z);
+            store(&mut row, DMat3::IDENTITY, turned(center, height), turned(a, 0.0), turned(b, 0.0));
+            let before = truth_of(&row);
+            let mut jump: f64 = 0.0;
+            Stream::new(10, "roundings").visit(16 * index as u64, 16, |_, draw| {
+                let rounded: Vec<f32> = row
+                    .iter()
+                    .map(|v| (f64::from(*v) * (1.0 + draw.sign() * 2.0 * UNIT_ROUNDOFF)) as f32)
+                    .collect();
+                jump = jump.max((truth_of(&rounded).values()[0] - before.values()[0]).abs());
+            });
+            let explained = UNIT_ROUNDOFF * before.sensitivities()[0];
+            if jump > 0.1 {
+                assert!(4.0 * explained >= jump, "{row:?}: {jump} {before:?}");
+                jumps += 1;
+            }
+            if height > 1e-4 || off.abs() > 1e-4 {
+                assert!(explained < 0.01, "{row:?}: {before:?}");
+            }
+        });
+        assert!(jumps > 100, "{jumps}");
     }
 
     /// Run with --nocapture for the figure; the assertion is the promise with room for a busy machine.

@@ -342,7 +342,7 @@ mod tests {
                     let (center, radius) = (exact3::vector(&row[CENTER..]), exact3::vector(&row[RADIUS..]));
                     graded(exact3::columns(&row[MINV..]), center, &rotation, radius)
                 };
-                agreement.add(value, sensitivity, exact, &row);
+                agreement.add(value, sensitivity, 0.0, exact, &row);
             });
             agreement.check(scenario.name);
         }

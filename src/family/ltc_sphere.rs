@@ -341,7 +341,7 @@ mod tests {
                     exact3::vector(&row[CENTER..]),
                     f64::from(row[RADIUS]),
                 );
-                agreement.add(value, sensitivity, exact, &row);
+                agreement.add(value, sensitivity, 0.0, exact, &row);
             });
             agreement.check(scenario.name);
         }

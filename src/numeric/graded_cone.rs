@@ -427,12 +427,15 @@ pub struct Agreement {
 
 #[cfg(test)]
 impl Agreement {
-    /// A configuration that is neither dark nor looked at from within.
-    pub fn add(&mut self, value: f64, sensitivity: f64, exact: Irradiance, row: &[f32]) {
+    /// A configuration that is neither dark nor looked at from within; `jumps` are of its sensitivity.
+    pub fn add(&mut self, value: f64, sensitivity: f64, jumps: f64, exact: Irradiance, row: &[f32]) {
         // The bound that more precision is asked for at.
         assert!((value - exact.value).abs() <= 1.5e-11 * exact.value, "{row:?}: {value} {exact:?}");
         assert!(exact.bound <= 1e-15 * exact.value, "{row:?}: {exact:?}");
-        self.worst = self.worst.max((sensitivity / exact.sensitivity - 1.0).abs());
+        // What the subtraction leaves of the digits.
+        if jumps <= 1e9 * exact.sensitivity {
+            self.worst = self.worst.max(((sensitivity - jumps) / exact.sensitivity - 1.0).abs());
+        }
         self.compared += 1;
     }
 
