@@ -22,7 +22,7 @@ defines = { HORIZON = 2 }
 // Measured: llvmpipe (Mesa 22.3.6 (LLVM 15.0.6)), 1,000,000 a scenario, seed 1.
 // Failed and the worst error, whoever is to blame; n: failed, and so many of them not finite.
 //                           ggx      flat          far  near_surface      edge
-//   secular_exact        0 2e-5    0 7e-5       0 8e-8        0 9e-5    0 5e-6
+//   secular_exact        0 2e-5    0 7e-5       0 9e-8        0 9e-5    0 5e-6
 //   secular_lut        46% 5e-2  37% 8e-2  0.022% 6e-3      98% 5e-2  14% 4e-3
 //   secular_rational   73% 2e-1  51% 2e-1   0.44% 2e-2     100% 2e-1  58% 3e-2
 
