@@ -46,21 +46,20 @@ struct DiskFrame {
 #endif
 };
 
-// What is left to do after components and columns were divided by powers of two. Products of a component and its column have
-// some power of two each, and lengths are told in units of the middle one of the three: a light may be 2^250 times as long as
-// wide, or as wide as far.
+// The products of a light's component and its column are of some powers of two: of top, middle and low. Lengths are told in units
+// of 2^middle, so that a light may be 2^250 times as long as wide, or as wide as far.
 struct DiskScale {
-    vec3 image;      // of the components, for images in that unit
-    vec3 cofactor;   // of cofactors, for those of the scaled matrix's images: relative to the largest
-    float needle;    // that unit's share of the largest, inverse
-    float flat_;     // the smallest's share of it
+    vec3 image;      // 2^(own - middle): of a component, for images
+    vec3 cofactor;   // 2^(low - own): of a cofactor, for the images of areas
+    float needle;    // 2^(top - middle)
+    float thin;      // 2^(low - middle)
 };
 
 // The largest power of two that a needle is taken to be longer than wide, before it is cut.
 const int DISK_NEEDLE = 28;
 
 // Far below what f32 tells apart, and far above where products leave its range.
-const int DISK_FLAT = -100;
+const int DISK_THIN = -100;
 
 float disk_power(int exponent)
 {
@@ -93,10 +92,10 @@ DiskScale disk_scale(inout mat3 m, inout vec3 c, inout vec3 v1, inout vec3 v2)
     int low = min(min(both.x, both.y), both.z);
     int middle = both.x + both.y + both.z - top - low;
     DiskScale s;
-    s.image = disk_powers(clamp(both - middle, DISK_FLAT, DISK_NEEDLE));
-    s.cofactor = disk_powers(max(low - both, DISK_FLAT));
+    s.image = disk_powers(clamp(both - middle, DISK_THIN, DISK_NEEDLE));
+    s.cofactor = disk_powers(max(low - both, DISK_THIN));
     s.needle = disk_power(min(top - middle, DISK_NEEDLE));
-    s.flat_ = disk_power(max(low - middle, DISK_FLAT));
+    s.thin = disk_power(max(low - middle, DISK_THIN));
     return s;
 }
 
@@ -162,7 +161,7 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     float inverse_both = inverse_normal * (inverse_along * by.needle);
     float across = normal2 * (reciprocal_power_of_two(normal_scale) * (1.0 / DISK_LARGE)) * inverse_both;
     float y = -dot(normal, moment.x * k0 + moment.y * k1 + moment.z * k2) * inverse_both;
-    float z = (det * by.flat_) * (volume * normal_scale) * inverse_normal;
+    float z = (det * by.thin) * (volume * normal_scale) * inverse_normal;
     f.heights = vec3(axis.z, (normal.x * axis.y - normal.y * axis.x) * inverse_normal, normal.z * inverse_normal);
 
     float near = max(max(abs(y), abs(z)), max(across, abs(x) - along));

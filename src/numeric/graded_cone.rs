@@ -2,7 +2,7 @@
 //!
 //! The cone is Minv O Minv^T for the dual quadric O of a light, both exact. Every quantity of the closed form has its own
 //! formula in which nothing cancels but for grading, by which an eigenvalue may be 2^-1000 of another, and slivers above the
-//! horizon. The precision doubles until two results agree: what rounding decides differs between them.
+//! horizon. The precision grows until two results agree: what rounding decides differs between them.
 //!
 //! The gradient is G = (sqrt(e1 e3 l)/2pi) times the integral of p.z n n^T/|p|^4 over the visible u, with the tangent planes'
 //! normals n = (cos u/sqrt(e1), sin u/sqrt(e3), -1/sqrt(l)) in the principal frame. With q = |p|^2 = A cos^2 u + B sin^2 u and
@@ -20,10 +20,9 @@ use super::big::{
     self, Big, Symmetric, Vector, abs, angle, asinh_over, cross, dot, nearest, root, rounded, times, vector,
 };
 
-/// The first precision in bits. Most that escalates agrees with twice as many.
-const FIRST: usize = 128;
-/// The last. Eigenvalues of f32's extremes differ by 2^2200.
-const LAST: usize = 16384;
+/// Precisions in bits, until two agree. Two words hold the first ones, which most that escalates needs; eigenvalues of f32's
+/// extremes differ by 2^2200.
+const PRECISIONS: [usize; 9] = [96, 128, 256, 512, 1024, 2048, 4096, 8192, 16384];
 /// Two values agree to 2^-60.
 const AGREEMENT: isize = 60;
 /// What must be 0 is 2^-20 of a sensitivity.
@@ -72,16 +71,10 @@ impl GradedCone {
             return dark;
         }
         let mut before: Option<(Big, Big)> = None;
-        let mut bits = FIRST;
-        while bits <= LAST {
+        for bits in PRECISIONS {
             let start = before.as_ref().map(|(root, _)| root);
-            let Some(cone) = Principal::new(&exact, bits, start) else {
-                bits *= 2;
-                continue;
-            };
-            let found = cone.irradiance(&rounded(&exact.dual[2], bits), bits);
-            let Some((value, integrals)) = found else {
-                bits *= 2;
+            let Some(cone) = Principal::new(&exact, bits, start) else { continue };
+            let Some((value, integrals)) = cone.irradiance(&rounded(&exact.dual[2], bits), bits) else {
                 continue;
             };
             if let Some((_, other)) = &before
@@ -93,7 +86,6 @@ impl GradedCone {
                 return Irradiance { value, bound: 0.5 * f64::EPSILON * value, sensitivity };
             }
             before = Some((cone.l, value));
-            bits *= 2;
         }
         Irradiance {
             value: before.map_or(0.0, |(_, value)| nearest(&value)),
