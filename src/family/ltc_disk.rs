@@ -656,6 +656,24 @@ mod tests {
         }
     }
 
+    /// Where determinants leave the range of f64, and far from it.
+    #[test]
+    fn no_exponents_are_too_large_or_small() {
+        let mut agreement = Agreement::default();
+        Stream::new(12, "exponents").visit(0, 2_000, |_, draw| {
+            let row: [f32; 18] = std::array::from_fn(|_| Agreement::any(draw));
+            let truth = truth_of(&row);
+            let (value, sensitivity) = (truth.values()[0], truth.sensitivities()[0]);
+            let (minv, light) = (exact3::columns(&row[MINV..]), exact3::columns(&row[CENTER..]));
+            let exact = graded(minv, light);
+            if exact.value == 0.0 {
+                return assert_eq!(value, 0.0, "{row:?}");
+            }
+            agreement.add(value, sensitivity, jumps(&minv, &light, value), exact, &row);
+        });
+        agreement.check("exponents");
+    }
+
     #[test]
     fn dark_lights_are_exactly_dark() {
         let mut dark = 0;

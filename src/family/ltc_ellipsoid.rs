@@ -348,6 +348,32 @@ mod tests {
         }
     }
 
+    /// Where determinants leave the range of f64, and far from it.
+    #[test]
+    fn no_exponents_are_too_large_or_small() {
+        let mut agreement = Agreement::default();
+        Stream::new(12, "exponents").visit(0, 2_000, |_, draw| {
+            let mut row = [0.0; 19];
+            (LtcEllipsoid.scenario("ggx").unwrap().draw)(draw, &mut row);
+            (0..ROTATION).chain(RADIUS..19).for_each(|at| row[at] = Agreement::any(draw));
+            let truth = truth_of(&row);
+            let (value, sensitivity) = (truth.values()[0], truth.sensitivities()[0]);
+            let radius = exact3::vector(&row[RADIUS..]);
+            // Of no size, or looked at from within.
+            if radius.min_element() == 0.0 || value == 1.0 {
+                return;
+            }
+            let rotation = Rotation::new(&row[ROTATION..RADIUS]);
+            let exact =
+                graded(exact3::columns(&row[MINV..]), exact3::vector(&row[CENTER..]), &rotation, radius);
+            if exact.value == 0.0 {
+                return assert_eq!(value, 0.0, "{row:?}");
+            }
+            agreement.add(value, sensitivity, 0.0, exact, &row);
+        });
+        agreement.check("exponents");
+    }
+
     #[test]
     fn sensitivities_cover_real_changes() {
         for name in ["ggx", "far", "flat", "near_surface"] {

@@ -347,6 +347,28 @@ mod tests {
         }
     }
 
+    /// Where determinants leave the range of f64, and far from it.
+    #[test]
+    fn no_exponents_are_too_large_or_small() {
+        let mut agreement = Agreement::default();
+        Stream::new(12, "exponents").visit(0, 2_000, |_, draw| {
+            let row: [f32; 13] = std::array::from_fn(|_| Agreement::any(draw));
+            let truth = truth_of(&row);
+            let (value, sensitivity) = (truth.values()[0], truth.sensitivities()[0]);
+            // Of no size, or looked at from within.
+            if row[RADIUS] == 0.0 || value == 1.0 {
+                return;
+            }
+            let center = exact3::vector(&row[CENTER..]);
+            let exact = graded(exact3::columns(&row[MINV..]), center, f64::from(row[RADIUS]));
+            if exact.value == 0.0 {
+                return assert_eq!(value, 0.0, "{row:?}");
+            }
+            agreement.add(value, sensitivity, 0.0, exact, &row);
+        });
+        agreement.check("exponents");
+    }
+
     #[test]
     fn sensitivities_cover_real_changes() {
         for name in ["ggx", "far", "horizon", "near_surface"] {

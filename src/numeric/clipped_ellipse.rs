@@ -45,6 +45,10 @@ const NOISE: f64 = 1.0 / (1u64 << 42) as f64;
 /// longer than [`NOISE`] allows.
 const TOUCH: f64 = 1.0 / (1u64 << 60) as f64;
 
+/// The gradient has digits where no eigenvalue is below this share of the largest, 2^22 times the square of what rounding an axis
+/// leaves of the others.
+const GRADED: f64 = 1.0 / (1u128 << 84) as f64;
+
 /// The mean direction's side of the apex is that of any vector inside, by this margin.
 const SIDE: f64 = 1.0 / (1u64 << 40) as f64;
 
@@ -120,15 +124,15 @@ pub(super) struct Principal {
 }
 
 impl Cone {
-    /// The irradiance on a plane with normal +z; nothing where the cone is flat (`minus_det` is 0) or below. `None` where
-    /// this arithmetic may not do, by tests on what it found: [`super::graded_cone`] then does.
+    /// The irradiance on a plane with normal +z; nothing where the cone is below. `None` where this arithmetic may not do, by
+    /// tests on what it found, and where the cone is flat or `minus_det` leaves the range of f64: [`super::graded_cone`] then does.
     ///
     /// `terms` has what the terms of S_xx, S_yy and S_zz add up to in absolute value.
     pub fn irradiance(&self, terms: DVec3) -> Option<Irradiance> {
         let (szz, size) = (self.dual[2].value(), terms.element_sum());
         let unsure = szz.abs() <= SIGN * terms.z;
         let below = szz < 0.0 && self.towards.z <= 0.0;
-        if self.minus_det == 0.0 || (below && !unsure) {
+        if below && !unsure {
             return Some(Irradiance::NOTHING);
         }
         // Products below that leave the range of f64.
@@ -136,11 +140,12 @@ impl Cone {
             return None;
         }
         let principal = self.principal(self.minors());
-        let Principal { e1, l, gap, axes, .. } = principal;
+        let Principal { e1, e3, l, gap, axes, .. } = principal;
         // What the entries' error is of the minors that W3 comes from, and of e1.
         let noise = TWOFOLD * (size * size / gap + size / e1);
         let side = axes.z_axis.dot(self.towards);
-        if !(noise <= NOISE) || !(side > SIDE * self.towards.length()) {
+        let graded = !(e3.min(l) >= GRADED * e1.max(l));
+        if !(noise <= NOISE) || graded || !(side > SIDE * self.towards.length()) {
             return None;
         }
         let middle = l * axes.z_axis.z * axes.z_axis.z;
