@@ -14,9 +14,10 @@ use glam::DVec3;
 
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
+use crate::numeric::big;
 use crate::numeric::exact;
 use crate::numeric::line_integral::{matrix, vector};
-use crate::numeric::polygon_irradiance::{certificate, of_pairs};
+use crate::numeric::polygon_irradiance::of_pairs;
 use crate::numeric::products::{self, Pairs};
 
 mod scenarios;
@@ -93,15 +94,21 @@ impl Problem for LtcPolygon {
     }
 
     fn oracle(&self, input: &[f32], truth: &mut Truth) {
-        let mut found = of_pairs(&transformed(input));
+        let corners = lights(input);
+        let alike = core::array::from_fn(|first| corners[first] == corners[(first + 1) % 4]);
+        let mut found = of_pairs(&transformed(input), alike);
+        if !found.is_certain() {
+            if flat(input) {
+                // All edges lie in one plane with the origin. Outside the outline their angles cancel.
+                found.touched |= found.value.abs() > 1e-9 || found.bound >= 1.0;
+                found.value = 0.0;
+                found.bound = 0.0;
+            } else {
+                found = found.refined(|| corners.map(|p| big::mapped(&columns(input), &big::vector(p))));
+            }
+        }
         if found.escalated {
             truth.escalate();
-        }
-        if !found.is_certain() && flat(input) {
-            // All edges lie in one plane with the origin. Outside the outline their angles cancel.
-            found.touched |= found.value.abs() > 1e-9 || found.bound >= 1.0;
-            found.value = 0.0;
-            found.bound = 0.0;
         }
         if found.touched {
             truth.scalar(0, found.value.abs(), 0.0, f64::INFINITY);
@@ -109,14 +116,13 @@ impl Problem for LtcPolygon {
         }
         // The sum of the angles of a light all around may round up.
         let value = found.value.abs().min(1.0);
-        truth.scalar(0, value, certificate(value, found.bound), sensitivity(input, &found.gradient));
+        truth.scalar(0, value, found.bound, sensitivity(input, &found.gradient));
     }
 }
 
 /// The change of the irradiance when every component of Minv and of the corners changes by its own magnitude.
 fn sensitivity(input: &[f32], gradient: &[DVec3; 4]) -> f64 {
-    let minv: [DVec3; 3] = core::array::from_fn(|column| vector(&input[MINV + 3 * column..]));
-    let corners = lights(input);
+    let (minv, corners) = (columns(input), lights(input));
     let mut change = 0.0;
     for (column, entries) in minv.iter().enumerate() {
         let slope: DVec3 = corners.iter().zip(gradient).map(|(p, g)| *g * p[column]).sum();
@@ -124,6 +130,10 @@ fn sensitivity(input: &[f32], gradient: &[DVec3; 4]) -> f64 {
         change += corners.iter().zip(gradient).map(|(p, g)| (entries.dot(*g) * p[column]).abs()).sum::<f64>();
     }
     change
+}
+
+fn columns(input: &[f32]) -> [DVec3; 3] {
+    core::array::from_fn(|column| vector(&input[MINV + 3 * column..]))
 }
 
 fn lights(input: &[f32]) -> [DVec3; 4] {
@@ -138,8 +148,7 @@ fn transformed(input: &[f32]) -> [Pairs; 4] {
 
 /// Whether the transformed corners lie in one plane with the origin, exactly.
 fn flat(input: &[f32]) -> bool {
-    let corners = lights(input);
-    let minv: [DVec3; 3] = core::array::from_fn(|column| vector(&input[MINV + 3 * column..]));
+    let (minv, corners) = (columns(input), lights(input));
     let flat = |a: DVec3, b: DVec3, c: DVec3| {
         let positive = [[a.x, b.y, c.z], [a.y, b.z, c.x], [a.z, b.x, c.y]];
         let negative = [[-a.z, b.y, c.x], [-a.y, b.x, c.z], [-a.x, b.z, c.y]];

@@ -4,9 +4,8 @@
 //! horizon: the family measures line lights against the strip that they stand for.
 //!
 //! It is a quad like any other (`polygon_irradiance`), its corners rounded once. What cancels is the width of a narrow or
-//! distant strip and what a horizon along its edge leaves of it: those are summed in double-double. Where that does not
-//! do either, the contour's normals are known exactly from the inputs; and, independently, with
-//! q(s, v) = Minv (p1 + s (p2 - p1) + v side),
+//! distant strip and what a horizon along its edge leaves of it: those are summed in double-double, and in as many digits as
+//! it takes where that does not do (`graded_polygon`). Independently, with q(s, v) = Minv (p1 + s (p2 - p1) + v side),
 //!
 //! ```text
 //! E = (1/pi) |det Minv| |[p2, side, p1]| integral over v in -1..1 of J(v)      J = integral over s of max(q.z, 0)/|q|^4
@@ -17,25 +16,20 @@
 //!
 //! Degenerate strips (no area, seen edge-on, a singular Minv) are exactly dark.
 
-use core::f64::consts::{FRAC_1_PI, TAU};
+use core::f64::consts::FRAC_1_PI;
 
 use glam::{DMat3, DVec3};
 
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
+use crate::numeric::big;
 use crate::numeric::gauss_legendre::{self, POINTS_8};
 use crate::numeric::line_integral::{Visible, matrix, vector};
-use crate::numeric::polygon_irradiance::{certificate, of_pairs};
+use crate::numeric::polygon_irradiance::of_pairs;
 use crate::numeric::products::{self, Pairs, norm};
 use crate::sample::{Draw, ggx, landmarks};
 
 pub(super) struct LtcStrip;
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
-/// Half width over distance up to which 8 Gauss points across are good to rounding: the integrand's nearest
-/// singularity lies at 5 half widths, rho = 9.9, rho^-16 = 1e-16.
-const NARROW: f64 = 0.2;
 
 const P1: usize = 9;
 const P2: usize = 12;
@@ -145,27 +139,18 @@ impl Problem for LtcStrip {
             return;
         }
 
-        let found = of_pairs(&pairs);
+        let found = of_pairs(&pairs, [false; 4]).refined(|| {
+            let columns = [minv.x_axis, minv.y_axis, minv.z_axis];
+            corners.map(|(p, offset)| {
+                let ([x, y, z], [u, v, w]) = (big::vector(p), big::vector(offset));
+                big::mapped(&columns, &[x + u, y + v, z + w])
+            })
+        });
         if found.escalated {
             truth.escalate();
         }
-        let (mut value, mut bound) = (found.value.abs(), found.bound);
-        if !found.is_certain() {
-            // Corners beyond 2^40 of what matters, or nearer to each other than 2^-70.
-            let areas = areas(&cofactors, p1, p2, side);
-            let (other, other_bound) = if is_narrow(&mapped) {
-                let other = FRAC_1_PI * (determinant * volume).abs() * across(&mapped, &areas);
-                // 208 EPS for each line, and 8 for what is around it.
-                (other, 216.0 * EPS * other)
-            } else {
-                contour(&mapped, &areas)
-            };
-            if other_bound < bound {
-                (value, bound) = (other, other_bound);
-            }
-        }
-        let value = value.min(1.0);
-        truth.scalar(0, value, certificate(value, bound), sensitivity(&minv, &corners, &found.gradient));
+        let value = found.value.abs().min(1.0);
+        truth.scalar(0, value, found.bound, sensitivity(&minv, &corners, &found.gradient));
     }
 }
 
@@ -181,16 +166,6 @@ fn areas(cofactors: &[Pairs; 3], p1: DVec3, p2: DVec3, side: DVec3) -> [DVec3; 4
     ]
 }
 
-/// Whether [`across`] holds: the horizon meets the two long edges alike, and nothing of the axis is nearer than five
-/// half widths.
-fn is_narrow(mapped: &[DVec3; 4]) -> bool {
-    let alike = |a: DVec3, b: DVec3| (a.z >= 0.0 && b.z >= 0.0) || (a.z <= 0.0 && b.z <= 0.0);
-    let (a, b) = (0.5 * (mapped[0] + mapped[3]), 0.5 * (mapped[1] + mapped[2]));
-    alike(mapped[0], mapped[3])
-        && alike(mapped[1], mapped[2])
-        && 0.5 * norm(mapped[3] - mapped[0]) <= NARROW * distance(a, b)
-}
-
 /// The integral of J over v in -1..1, where that is smooth: few digits of it, or all of them for narrow strips.
 fn across(mapped: &[DVec3; 4], areas: &[DVec3; 4]) -> f64 {
     let mut sum = 0.0;
@@ -203,26 +178,6 @@ fn across(mapped: &[DVec3; 4], areas: &[DVec3; 4]) -> f64 {
         }
     });
     sum
-}
-
-/// The irradiance by the contour with exact normals of its edges, and its error bound.
-fn contour(mapped: &[DVec3; 4], areas: &[DVec3; 4]) -> (f64, f64) {
-    let (mut sum, mut terms) = (0.0, 0.0);
-    let (mut down, mut up) = (DVec3::ZERO, DVec3::ZERO);
-    for (k, area) in areas.iter().enumerate() {
-        let Some(edge) = Visible::new(mapped[k], mapped[(k + 1) % 4], *area) else { continue };
-        sum += edge.contour_term();
-        terms += edge.contour_term().abs();
-        // An end exactly on the horizon counts: the next edge may lie on it.
-        if mapped[k].z <= 0.0 {
-            up = edge.ends[0];
-        } else if mapped[(k + 1) % 4].z <= 0.0 {
-            down = edge.ends[1];
-        }
-    }
-    // Along the horizon from where the contour dips under it to where it comes back; both are zero if it never does.
-    let closing = libm::atan2(down.x * up.y - down.y * up.x, down.x * up.x + down.y * up.y);
-    ((sum + closing).abs() / TAU, 16.0 * EPS * (terms + closing.abs()) / TAU)
 }
 
 /// The sum over all inputs of |derivative times input|.
@@ -369,6 +324,16 @@ mod tests {
             });
             assert!(positive > 3_000, "{}: {positive} strips above the horizon", scenario.name);
         }
+    }
+
+    /// Whether [`across`] is good to rounding: the horizon meets the two long edges alike, and half the width is a fifth of the
+    /// axis's distance or less, where the integrand's nearest singularity lies at 5 half widths, rho = 9.9, rho^-16 = 1e-16.
+    fn is_narrow(mapped: &[DVec3; 4]) -> bool {
+        let alike = |a: DVec3, b: DVec3| (a.z >= 0.0 && b.z >= 0.0) || (a.z <= 0.0 && b.z <= 0.0);
+        let (a, b) = (0.5 * (mapped[0] + mapped[3]), 0.5 * (mapped[1] + mapped[2]));
+        alike(mapped[0], mapped[3])
+            && alike(mapped[1], mapped[2])
+            && 0.5 * norm(mapped[3] - mapped[0]) <= 0.2 * distance(a, b)
     }
 
     /// Lines across are independent of the contour, and nothing cancels in them.

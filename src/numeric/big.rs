@@ -42,6 +42,11 @@ pub fn abs(x: Big) -> Big {
     if x < Big::ZERO { -x } else { x }
 }
 
+/// Whether results of two precisions agree, to 2^-60.
+pub fn agree(a: &Big, b: &Big) -> bool {
+    abs(a - b) << 60 <= abs(a.clone())
+}
+
 /// The root of what is positive but for roundings.
 pub fn root(x: &Big) -> Big {
     if *x > Big::ZERO { x.sqrt() } else { Big::ZERO }
@@ -54,6 +59,12 @@ pub fn dot(a: &Vector, b: &Vector) -> Big {
 pub fn cross(a: &Vector, b: &Vector) -> Vector {
     let minor = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
     [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+/// m v for columns of m, exactly if v is exact.
+pub fn mapped(m: &[glam::DVec3; 3], [x, y, z]: &Vector) -> Vector {
+    let [a, b, c] = m.map(vector);
+    [0, 1, 2].map(|row| &a[row] * x + &b[row] * y + &c[row] * z)
 }
 
 /// v v^T.

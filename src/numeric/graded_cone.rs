@@ -17,14 +17,13 @@
 use glam::DVec3;
 
 use super::big::{
-    self, Big, Symmetric, Vector, abs, angle, asinh_over, cross, dot, nearest, root, rounded, times, vector,
+    self, Big, Symmetric, Vector, abs, agree, angle, asinh_over, cross, dot, mapped, nearest, root, rounded,
+    times, vector,
 };
 
 /// Precisions in bits, until two agree. Two words hold the first ones, which most that escalates needs; eigenvalues of f32's
 /// extremes differ by 2^2200.
 const PRECISIONS: [usize; 9] = [96, 128, 256, 512, 1024, 2048, 4096, 8192, 16384];
-/// Two values agree to 2^-60.
-const AGREEMENT: isize = 60;
 /// What must be 0 is 2^-20 of a sensitivity.
 const REMAINDER: isize = 20;
 
@@ -111,8 +110,7 @@ impl GradedCone {
         let [axx, _, _, axy, axz, _] = minors(&self.own);
         let own = &self.own[0] * axx + &self.own[3] * axy + &self.own[4] * axz;
         let center = vector(self.center);
-        let towards = [0, 1, 2]
-            .map(|row| &minv[0][row] * &center[0] + &minv[1][row] * &center[1] + &minv[2][row] * &center[2]);
+        let towards = mapped(&self.minv, &center);
         let adjugate = minors(&dual);
         Exact { minv, dual, adjugate, minus_det: -(&determinant * &determinant * own), towards }
     }
@@ -143,11 +141,6 @@ impl GradedCone {
         let sum = (of_minv << 1) + of_light(&[xx, yy, zz, xy, xz, yz]);
         (abs(of_scale) << REMAINDER <= sum).then(|| nearest(&sum))
     }
-}
-
-/// Whether a and b agree to [`AGREEMENT`].
-fn agree(a: &Big, b: &Big) -> bool {
-    abs(a - b) << AGREEMENT <= abs(a.clone())
 }
 
 /// The rows of C S for the columns of C.

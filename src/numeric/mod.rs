@@ -15,6 +15,7 @@ pub mod exact;
 pub mod exact3;
 pub mod gauss_legendre;
 pub mod graded_cone;
+pub mod graded_polygon;
 pub mod half_turn;
 pub mod line_integral;
 pub mod plane_rectangle;

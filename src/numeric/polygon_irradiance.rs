@@ -11,9 +11,10 @@
 
 use glam::DVec3;
 
+use super::big;
 use super::double_double::{DoubleDouble, Real};
+use super::graded_polygon;
 use super::products::{PAIR_ERROR, Pairs};
-use super::spacing::f32_spacing;
 
 /// Share of the hemisphere's irradiance, signed: positive where the corners are anticlockwise seen from the origin.
 #[derive(Clone, Copy, Debug)]
@@ -32,15 +33,6 @@ pub struct Irradiance<const N: usize> {
 
 /// The relative error that more precision is taken for: 2.9e-11, well beyond what certifying an f32 takes.
 const ACCURACY: f64 = 1.0 / (1u64 << 35) as f64;
-
-/// Below this irradiance of 8.7e-19 certainty is stated in absolute terms: corners of a polygon of that width differ
-/// beyond what double-double products keep.
-const FLOOR: f64 = 1.0 / (1u64 << 60) as f64;
-
-/// A bound as certification counts it, in the value's own spacing.
-pub fn certificate(value: f64, bound: f64) -> f64 {
-    bound * (f32_spacing(value) / f32_spacing(value.max(FLOOR)))
-}
 
 type Vector<T> = [T; 3];
 
@@ -65,8 +57,14 @@ struct Crossing<T> {
 /// The polygon's irradiance. Components of the corners are of at most 1e100 and (but for zeros) of at least 1e-70 of
 /// the largest.
 pub fn irradiance<T: Real, const N: usize>(corners: &[Vector<T>; N]) -> Irradiance<N> {
+    of_exact(corners, [false; N])
+}
+
+/// The same where `alike` says of edges that both their ends are the same.
+fn of_exact<T: Real, const N: usize>(corners: &[Vector<T>; N], alike: [bool; N]) -> Irradiance<N> {
     let mut contour = Contour {
         corners,
+        alike,
         sum: T::from(0.0),
         absolute: 0.0,
         bound: 0.0,
@@ -83,18 +81,22 @@ pub fn irradiance<T: Real, const N: usize>(corners: &[Vector<T>; N]) -> Irradian
 }
 
 /// The irradiance of corners of any scale, known as pairs to [`PAIR_ERROR`], which the bound counts: in f64, or in
-/// double-double where that does not do.
-pub fn of_pairs<const N: usize>(corners: &[Pairs; N]) -> Irradiance<N> {
-    let plain = of_rounded(corners.map(|corner| corner.map(|(high, _)| high)), f64::ROUNDOFF);
+/// double-double where that does not do. `alike` says of edges that both their ends are the same: others may round to that.
+pub fn of_pairs<const N: usize>(corners: &[Pairs; N], alike: [bool; N]) -> Irradiance<N> {
+    let plain = of_rounded(corners.map(|corner| corner.map(|(high, _)| high)), alike, f64::ROUNDOFF);
     if plain.is_certain() {
         return plain;
     }
     let fine = corners.map(|corner| corner.map(|(high, low)| DoubleDouble::new(high, low)));
-    Irradiance { escalated: true, ..of_rounded(fine, PAIR_ERROR) }
+    Irradiance { escalated: true, ..of_rounded(fine, alike, PAIR_ERROR) }
 }
 
 /// The same, from corners whose components have this relative error.
-fn of_rounded<T: Real, const N: usize>(corners: [Vector<T>; N], error: f64) -> Irradiance<N> {
+fn of_rounded<T: Real, const N: usize>(
+    corners: [Vector<T>; N],
+    alike: [bool; N],
+    error: f64,
+) -> Irradiance<N> {
     // By a power of two, exactly: no square leaves f64's range.
     let largest = corners
         .iter()
@@ -103,7 +105,7 @@ fn of_rounded<T: Real, const N: usize>(corners: [Vector<T>; N], error: f64) -> I
         .clamp(1e-200, 1e200);
     let scale = T::from(libm::exp2(-libm::floor(libm::log2(largest))));
     let corners = corners.map(|corner| corner.map(|c| c * scale));
-    let mut found = irradiance(&corners);
+    let mut found = of_exact(&corners, alike);
     for (corner, gradient) in corners.iter().zip(&mut found.gradient) {
         for (component, slope) in corner.iter().zip(gradient.to_array()) {
             found.bound += 2.0 * error * (component.to_f64() * slope).abs();
@@ -118,10 +120,25 @@ impl<const N: usize> Irradiance<N> {
     pub fn is_certain(&self) -> bool {
         !self.touched && self.bound <= ACCURACY * self.value.abs()
     }
+
+    /// The same where that is certain, and else with the value in as many digits as it takes; the sign is lost.
+    pub fn refined(self, corners: impl FnOnce() -> [big::Vector; N]) -> Self {
+        if self.is_certain() {
+            return self;
+        }
+        match graded_polygon::irradiance(&corners()) {
+            Some(value) => {
+                let bound = 0.5 * f64::EPSILON * value;
+                Irradiance { value, bound, touched: false, escalated: true, ..self }
+            }
+            None => self,
+        }
+    }
 }
 
 struct Contour<'a, T, const N: usize> {
     corners: &'a [Vector<T>; N],
+    alike: [bool; N],
     sum: T,
     /// Sum of the terms' magnitudes.
     absolute: f64,
@@ -180,12 +197,20 @@ impl<T: Real, const N: usize> Contour<'_, T, N> {
             self.add(theta * normal[2] / (whole_sine * T::TAU));
             let turn = normal_error / whole_sine.to_f64();
             let theta = theta.to_f64();
-            self.bound += theta / core::f64::consts::TAU * (3.0 * turn + 12.0 * T::ROUNDOFF);
+            // A crossing's error along its own direction is one of the cosine that the sine does not share.
+            let cut = match (&self.crossings[self.crossed.saturating_sub(1)], above_a && above_b) {
+                (Some(crossing), false) => crossing.error / round(crossing.point).length(),
+                _ => 0.0,
+            };
+            self.bound += theta / core::f64::consts::TAU * (3.0 * turn + 12.0 * T::ROUNDOFF + cut);
             if turn > 0.01 {
                 self.bound += 1.0;
             }
             edge_gradient(round(normal) / whole_sine.to_f64(), sine.to_f64(), theta, u, w)
         } else {
+            if !self.alike[first] {
+                self.bound += 1.0;
+            }
             self.touched |= cosine.to_f64() <= 0.0;
             parallel_gradient(u, w)
         };
@@ -223,7 +248,8 @@ impl<T: Real, const N: usize> Contour<'_, T, N> {
             }
             self.add(angle / T::TAU);
             let turn = from.error / cc.sqrt() + to.error / dd.sqrt() + 8.0 * T::ROUNDOFF;
-            // The points' own errors are counted by their gradients; here only what the sine loses beside them.
+            // The points' own errors, which the edges' terms do not share, and what the sine loses beside them.
+            self.bound += (from.error / cc.sqrt() + to.error / dd.sqrt()) / core::f64::consts::TAU;
             self.bound += 4.0 * T::ROUNDOFF * (length(way) / dd.sqrt() + angle.to_f64().abs());
             if core::f64::consts::PI - angle.to_f64().abs() <= turn {
                 self.bound += 1.0;
@@ -243,8 +269,6 @@ impl<T: Real, const N: usize> Contour<'_, T, N> {
             let shift = crossing.gradient + DVec3::Z * (crossing.gradient.dot(chord) / crossing.drop);
             self.gradient[first] += (1.0 - crossing.along) * shift;
             self.gradient[second] += crossing.along * shift;
-            // Rounding moves the point within the horizon.
-            self.bound += crossing.gradient.truncate().length() * crossing.error;
         }
         Irradiance {
             value: self.sum.to_f64(),
