@@ -15,10 +15,10 @@ use glam::DVec3;
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::big;
-use crate::numeric::exact;
 use crate::numeric::line_integral::{matrix, vector};
 use crate::numeric::polygon_irradiance::of_pairs;
 use crate::numeric::products::{self, Pairs};
+use crate::numeric::{exact, exact3};
 
 mod scenarios;
 
@@ -104,7 +104,9 @@ impl Problem for LtcPolygon {
                 found.value = 0.0;
                 found.bound = 0.0;
             } else {
-                found = found.refined(|| corners.map(|p| big::mapped(&columns(input), &big::vector(p))));
+                found = found.refined(|| {
+                    corners.map(|p| big::mapped(&exact3::columns(&input[MINV..]), &big::vector(p)))
+                });
             }
         }
         if found.escalated {
@@ -122,7 +124,7 @@ impl Problem for LtcPolygon {
 
 /// The change of the irradiance when every component of Minv and of the corners changes by its own magnitude.
 fn sensitivity(input: &[f32], gradient: &[DVec3; 4]) -> f64 {
-    let (minv, corners) = (columns(input), lights(input));
+    let (minv, corners) = (exact3::columns(&input[MINV..]), lights(input));
     let mut change = 0.0;
     for (column, entries) in minv.iter().enumerate() {
         let slope: DVec3 = corners.iter().zip(gradient).map(|(p, g)| *g * p[column]).sum();
@@ -130,10 +132,6 @@ fn sensitivity(input: &[f32], gradient: &[DVec3; 4]) -> f64 {
         change += corners.iter().zip(gradient).map(|(p, g)| (entries.dot(*g) * p[column]).abs()).sum::<f64>();
     }
     change
-}
-
-fn columns(input: &[f32]) -> [DVec3; 3] {
-    core::array::from_fn(|column| vector(&input[MINV + 3 * column..]))
 }
 
 fn lights(input: &[f32]) -> [DVec3; 4] {
@@ -148,7 +146,7 @@ fn transformed(input: &[f32]) -> [Pairs; 4] {
 
 /// Whether the transformed corners lie in one plane with the origin, exactly.
 fn flat(input: &[f32]) -> bool {
-    let (minv, corners) = (columns(input), lights(input));
+    let (minv, corners) = (exact3::columns(&input[MINV..]), lights(input));
     let flat = |a: DVec3, b: DVec3, c: DVec3| {
         let positive = [[a.x, b.y, c.z], [a.y, b.z, c.x], [a.z, b.x, c.y]];
         let negative = [[-a.z, b.y, c.x], [-a.y, b.x, c.z], [-a.x, b.z, c.y]];

@@ -164,8 +164,8 @@ impl<T: Real, const N: usize> Contour<'_, T, N> {
         // Each component of the chord is rounded once, and the products and their difference once more.
         let normal_error = 4.0 * T::ROUNDOFF * length_a.min(length_b) * length(chord);
 
-        let (start, end, part) = if above_a && above_b {
-            (a, b, T::from(1.0))
+        let (start, end, part, cut) = if above_a && above_b {
+            (a, b, T::from(1.0), 0.0)
         } else {
             // From the corner above: the crossing is that corner and a part of the chord, with the sign of its way.
             let drop = a[2] - b[2];
@@ -174,18 +174,21 @@ impl<T: Real, const N: usize> Contour<'_, T, N> {
             let point = [above[0] + offset[0], above[1] + offset[1], T::from(0.0)];
             let magnitude = |v: Vector<T>| libm::hypot(v[0].to_f64(), v[1].to_f64());
             let along = if above_a { from_above } else { T::from(1.0) + from_above };
+            let error = T::ROUNDOFF * (magnitude(above) + 6.0 * magnitude(offset));
             self.crossings[self.crossed] = Some(Crossing {
                 point,
                 edge: first,
                 along: along.to_f64(),
                 drop: drop.to_f64(),
-                error: T::ROUNDOFF * (magnitude(above) + 6.0 * magnitude(offset)),
+                error,
                 gradient: DVec3::ZERO,
                 leaves: above_a,
             });
             self.crossed += 1;
             let part = if above_a { from_above } else { -from_above };
-            if above_a { (a, point, part) } else { (point, b, part) }
+            let (start, end) = if above_a { (a, point) } else { (point, b) };
+            // An error along the crossing's own direction is one of the cosine that the sine does not share.
+            (start, end, part, error / magnitude(point))
         };
 
         let (u, w) = (round(start), round(end));
@@ -197,11 +200,6 @@ impl<T: Real, const N: usize> Contour<'_, T, N> {
             self.add(theta * normal[2] / (whole_sine * T::TAU));
             let turn = normal_error / whole_sine.to_f64();
             let theta = theta.to_f64();
-            // A crossing's error along its own direction is one of the cosine that the sine does not share.
-            let cut = match (&self.crossings[self.crossed.saturating_sub(1)], above_a && above_b) {
-                (Some(crossing), false) => crossing.error / round(crossing.point).length(),
-                _ => 0.0,
-            };
             self.bound += theta / core::f64::consts::TAU * (3.0 * turn + 12.0 * T::ROUNDOFF + cut);
             if turn > 0.01 {
                 self.bound += 1.0;
@@ -247,11 +245,11 @@ impl<T: Real, const N: usize> Contour<'_, T, N> {
                 continue;
             }
             self.add(angle / T::TAU);
-            let turn = from.error / cc.sqrt() + to.error / dd.sqrt() + 8.0 * T::ROUNDOFF;
+            let off = from.error / cc.sqrt() + to.error / dd.sqrt();
             // The points' own errors, which the edges' terms do not share, and what the sine loses beside them.
-            self.bound += (from.error / cc.sqrt() + to.error / dd.sqrt()) / core::f64::consts::TAU;
+            self.bound += off / core::f64::consts::TAU;
             self.bound += 4.0 * T::ROUNDOFF * (length(way) / dd.sqrt() + angle.to_f64().abs());
-            if core::f64::consts::PI - angle.to_f64().abs() <= turn {
+            if core::f64::consts::PI - angle.to_f64().abs() <= off + 8.0 * T::ROUNDOFF {
                 self.bound += 1.0;
             }
             from.gradient -= DVec3::Z.cross(c) / (cc * core::f64::consts::TAU);
