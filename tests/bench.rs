@@ -192,17 +192,17 @@ fn a_contest_tells_what_differs_from_what_does_not() {
             // A false positive is allowed one time in twenty, three in a row are not.
             let (ranking, timings) = (0..3)
                 .map(|_| contest.run(setting, &effort, &|| (), &NOBODY).unwrap())
-                .find(|(_, timings)| {
+                .find(|(ranking, timings)| {
                     let ranks = [timings[0].rank.unwrap(), timings[1].rank.unwrap()];
-                    ranks[0].last >= ranks[1].first && ranks[1].last >= ranks[0].first
+                    let shared = ranks[0].last >= ranks[1].first && ranks[1].last >= ranks[0].first;
+                    shared && ranking.null_ns.median < timings[0].ns.median
                 })
-                .expect("the same variant ranks before itself");
+                .expect("the same variant ranks before itself, or nothing takes longer than it");
             // Many times the work: how certain that is depends on what else the machine does, the middle hardly.
             assert_eq!(timings[2].rank.unwrap().last, 3);
             let ratio = timings[2].ratio.unwrap();
             assert!(ratio.median > 2.0, "{ratio:?}");
             assert_eq!(timings[2].bound, Some(Bound::Compute));
-            assert!(ranking.null_ns.median < timings[2].ns.median);
             assert_ne!(ranking.stopped, Stop::Rounds);
         }
     });
