@@ -525,7 +525,7 @@ fn interruption_leaves_nothing() {
             break status;
         }
         // One chunk of every variant may be under way on a slow machine.
-        assert!(start.elapsed() < Duration::from_secs(120), "it does not stop");
+        assert!(start.elapsed() < Duration::from_secs(300), "it does not stop");
         std::thread::sleep(Duration::from_millis(50));
     };
     assert_eq!((status.code(), status.signal()), (Some(130), None));
@@ -570,10 +570,8 @@ fn bench_ranks_and_says_what_is_noise() {
             assert!(ratio("low") <= ratio("median") && ratio("median") <= ratio("high"), "{timing}");
             let place = |name: &str| timing["rank"][name].as_u64().unwrap();
             assert!(1 <= place("first") && place("first") <= place("last") && place("last") <= 3, "{timing}");
-            // Nothing is faster than the fastest kernel there is for it; but a machine that was busy with other things
-            // while the ceilings were measured, and is not any more, may be several times as fast.
-            assert!(timing["share"]["arithmetic"].as_f64().unwrap() < 8.0, "{timing}");
-            assert!(timing["share"]["bandwidth"].as_f64().unwrap() < 8.0, "{timing}");
+            positive(&timing["share"]["arithmetic"]);
+            positive(&timing["share"]["bandwidth"]);
         }
         assert!(arithmetic[0]["evaluations"].as_u64().unwrap() >= 16);
     }

@@ -70,7 +70,7 @@ fn an_interrupted_audit_goes_on_to_the_same_bytes() {
     let journal = broken.join("journal.jsonl");
     let start = Instant::now();
     while lines(&journal) < 2 {
-        assert!(start.elapsed() < Duration::from_secs(60), "no part was finished");
+        assert!(start.elapsed() < Duration::from_secs(300), "no part was finished");
         assert!(child.try_wait().unwrap().is_none(), "it ended before it could be interrupted");
         std::thread::sleep(Duration::from_millis(2));
     }

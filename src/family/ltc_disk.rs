@@ -793,18 +793,4 @@ mod tests {
         });
         assert!(jumps > 100, "{jumps}");
     }
-
-    /// Run with --nocapture for the figure; the assertion is the promise with room for a busy machine.
-    #[test]
-    fn takes_microseconds() {
-        let mut rows = Vec::new();
-        for scenario in LtcDisk.scenarios().iter().filter(|scenario| scenario.name != "edge") {
-            each(scenario.name, 1_000, |row, _| rows.push(row.to_vec()));
-        }
-        let start = std::time::Instant::now();
-        let sum: f64 = rows.iter().map(|row| truth_of(row).values()[0]).sum();
-        let each = start.elapsed().as_secs_f64() / rows.len() as f64;
-        println!("{:.0} ns, mean irradiance {:.3}", 1e9 * each, sum / rows.len() as f64);
-        assert!(each < 20e-6, "{each}");
-    }
 }
