@@ -12,8 +12,10 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
+use crate::numeric::ball::Ball;
 use crate::numeric::big::{self, Big};
 use crate::numeric::clipped_ellipse::{Changes, Cone};
+use crate::numeric::conjugate_cone::{self, ConjugateCone};
 use crate::numeric::exact3;
 use crate::numeric::graded_cone::{self, GradedCone};
 use crate::numeric::spacing::UNIT_ROUNDOFF;
@@ -242,7 +244,12 @@ impl Problem for LtcDisk {
             found.and_then(|seen| Some((seen, sensitivity(seen.gradient, &minv, &light, &image, scale)?)));
         let Some((seen, sensitivity)) = found else {
             truth.escalate();
-            let seen = graded(minv, light);
+            let szz = Ball::within(dual[2].value(), exact3::SQUARES * terms.z)
+                / Ball::exact(scale)
+                / Ball::exact(scale);
+            let volume = Ball::rounded(of_minv, 1.0) * Ball::rounded(of_light, 1.0);
+            let seen = conjugate(&minv, &light, volume, szz);
+            let seen = seen.unwrap_or_else(|| graded(minv, light));
             let jumps = jumps(&minv, &light, seen.value);
             return truth.scalar(0, seen.value, seen.bound, seen.sensitivity + jumps);
         };
@@ -251,6 +258,32 @@ impl Problem for LtcDisk {
         }
         truth.scalar(0, seen.value, seen.bound, sensitivity + jumps(&minv, &light, seen.value));
     }
+}
+
+/// The same in the light's own frame.
+fn conjugate(
+    minv: &[DVec3; 3],
+    light: &[DVec3; 3],
+    volume: Ball,
+    szz: Ball,
+) -> Option<graded_cone::Irradiance> {
+    let seen = ConjugateCone::of_ellipse(minv, light, volume, szz).irradiance()?;
+    let [of_c, of_a, of_b] = seen.images.map(|image| seen.by(image).map(|component| component << 1));
+    let by_image = [of_c.map(|component| -component), of_a, of_b];
+    let [minv, light] = [minv, light].map(|vectors| vectors.map(conjugate_cone::vector));
+    let mut sum = Ball::ZERO;
+    for (j, column) in minv.iter().enumerate() {
+        for (i, entry) in column.iter().enumerate() {
+            let by_entry = (0..3).fold(Ball::ZERO, |sum, k| sum + by_image[k][i] * light[k][j]);
+            sum = sum + (*entry * by_entry).abs();
+        }
+    }
+    for (vector, by) in light.iter().zip(&by_image) {
+        for (component, column) in vector.iter().zip(&minv) {
+            sum = sum + (*component * conjugate_cone::dot(column, by)).abs();
+        }
+    }
+    seen.with_sensitivity(sum)
 }
 
 /// The same in any precision.

@@ -11,8 +11,10 @@ use glam::{DMat3, DVec3};
 
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
+use crate::numeric::ball::Ball;
 use crate::numeric::big;
 use crate::numeric::clipped_ellipse::{Changes, Cone};
+use crate::numeric::conjugate_cone::{self, ConjugateCone, Silhouette};
 use crate::numeric::graded_cone::{self, GradedCone};
 use crate::numeric::spacing::UNIT_ROUNDOFF;
 use crate::numeric::twofold::Twofold;
@@ -203,7 +205,9 @@ impl Problem for LtcSphere {
         });
         let Some((light, sensitivity)) = found else {
             truth.escalate();
-            let light = graded(minv, center, radius);
+            let szz = Ball::within(cone.dual[2].value(), exact3::SQUARES * terms.z);
+            let light = conjugate(&minv, center, radius, outside, [by_matrix, by_length], szz);
+            let light = light.unwrap_or_else(|| graded(minv, center, radius));
             return truth.scalar(0, light.value, light.bound, light.sensitivity);
         };
         if light.escalated {
@@ -211,6 +215,42 @@ impl Problem for LtcSphere {
         }
         truth.scalar(0, light.value, light.bound, sensitivity);
     }
+}
+
+/// The same in the silhouette's own frame; `szz` is of inputs in these units.
+fn conjugate(
+    minv: &[DVec3; 3],
+    center: DVec3,
+    radius: f64,
+    outside: f64,
+    units: [f64; 2],
+    szz: Ball,
+) -> Option<graded_cone::Irradiance> {
+    let silhouette = Silhouette::new(center, radius, outside);
+    let Silhouette { center: c, distance, radius: of_disk, across: [u1, u2] } = silhouette;
+    let square = distance * distance;
+    // The disk's dual quadric is so many times the sphere's.
+    let scale = square / Ball::rounded(outside, 1.0);
+    let szz = units.iter().fold(szz, |szz, unit| szz / Ball::exact(*unit) / Ball::exact(*unit));
+    let seen = ConjugateCone::of_sphere(minv, &silhouette, szz * scale).irradiance()?;
+    let [of_center, of_1, of_2] = seen.images;
+    let by_center = seen.by(of_center);
+    let (by_square, by_radius) = (Ball::ONE / square, Ball::ONE / of_disk);
+    let r2 = Ball::exact(radius) * Ball::exact(radius);
+    let (mut sum, mut trace) = (Ball::ZERO, Ball::ZERO);
+    for j in 0..3 {
+        let column = conjugate_cone::vector(minv[j]);
+        let local = [0, 1, 2]
+            .map(|i| of_center[i] * c[j] * by_square + (of_1[i] * u1[j] + of_2[i] * u2[j]) * by_radius);
+        let by_column = seen.by(local);
+        trace = trace + conjugate_cone::dot(&column, &by_column);
+        for i in 0..3 {
+            sum = sum + (column[i] * (r2 * by_column[i] - by_center[i] * c[j])).abs();
+        }
+        sum = sum + (c[j] * conjugate_cone::dot(&column, &by_center)).abs();
+    }
+    sum = sum + (r2 * trace).abs();
+    seen.with_sensitivity((sum << 1) * scale)
 }
 
 /// The same in any precision.

@@ -6,6 +6,8 @@
 
 use dashu_float::FBig;
 
+use super::clipped_cone::Number;
+
 pub type Big = FBig;
 
 /// A vector.
@@ -42,9 +44,11 @@ pub fn abs(x: Big) -> Big {
     if x < Big::ZERO { -x } else { x }
 }
 
-/// Whether results of two precisions agree, to 2^-60.
-pub fn agree(a: &Big, b: &Big) -> bool {
-    abs(a - b) << 60 <= abs(a.clone())
+/// Whether a result and one of `fewer` bits less agree so far that the finer is good to 2^-60: what rounding leaves of it is
+/// 2^-`fewer` of what it leaves of the other. Less than 2^-32 may be chance.
+pub fn agree(finer: &Big, coarser: &Big, fewer: usize) -> bool {
+    let bits = 60usize.saturating_sub(fewer).max(32);
+    abs(finer - coarser) << bits as isize <= abs(finer.clone())
 }
 
 /// The root of what is positive but for roundings.
@@ -136,6 +140,37 @@ fn series(x: &Big, bits: usize) -> Big {
         sum += &power / (2 * k + 1);
     }
     rounded(&(Big::from_parts(sum, -(bits as isize))), bits)
+}
+
+impl Number for Big {
+    fn whole(n: u8) -> Self {
+        Big::from(n)
+    }
+
+    fn pi(bits: usize) -> Self {
+        Big::pi(bits)
+    }
+
+    fn root(&self) -> Self {
+        root(self)
+    }
+
+    fn angle(&self, x: &Self, pi: &Self) -> Self {
+        angle(self, x, pi)
+    }
+
+    fn angle_over(&self, x: &Self, pi: &Self) -> Self {
+        let y = root(self);
+        if y == Big::ZERO { Big::ONE / x } else { angle(&y, x, pi) / y }
+    }
+
+    fn better(self, _: Self) -> Self {
+        self
+    }
+
+    fn asinh_over(&self, bits: usize) -> Self {
+        asinh_over(self, bits)
+    }
 }
 
 #[cfg(test)]

@@ -27,13 +27,14 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec3};
 
+use super::exact3;
 use super::twofold::Twofold;
 
 /// The closed form does while its bound is at most this share of the value, 1.5e-11.
 const ACCURACY: f64 = 1.0 / (1u64 << 36) as f64;
 
-/// What S's entries are off by, of their terms: a few of twofold arithmetic's 2^-102.
-const TWOFOLD: f64 = 1.0 / (1u128 << 96) as f64;
+/// What S's entries are off by, of their terms.
+const TWOFOLD: f64 = exact3::SQUARES;
 
 /// S_zz has a sign, and 2^-42 of itself, where it is this share of its terms.
 const SIGN: f64 = 1.0 / (1u64 << 56) as f64;

@@ -41,6 +41,9 @@ pub fn scale_to_one(vectors: &[Vector]) -> f64 {
     libm::ldexp(1.0, -libm::frexp(largest).1)
 }
 
+/// What sums of [`square`]s of [`transformed`] vectors are off by, of their terms: a few of twofold arithmetic's 2^-102.
+pub const SQUARES: f64 = 1.0 / (1u128 << 96) as f64;
+
 /// The upper triangle xx, yy, zz, xy, xz, yz of v v^T.
 #[inline]
 pub fn square(v: &Vector) -> [Twofold; 6] {

@@ -3,29 +3,22 @@
 //! The cone is Minv O Minv^T for the dual quadric O of a light, both exact. Every quantity of the closed form has its own
 //! formula in which nothing cancels but for grading, by which an eigenvalue may be 2^-1000 of another, and slivers above the
 //! horizon. The precision grows until two results agree: what rounding decides differs between them.
-//!
-//! The gradient is G = (sqrt(e1 e3 l)/2pi) times the integral of p.z n n^T/|p|^4 over the visible u, with the tangent planes'
-//! normals n = (cos u/sqrt(e1), sin u/sqrt(e3), -1/sqrt(l)) in the principal frame. With q = |p|^2 = A cos^2 u + B sin^2 u and
-//! `[f]` the difference between the ends,
-//!
-//! ```text
-//! 2 A int cos^2/q^2 = J + [sin cos/q]     2 B int sin^2/q^2 = J - [sin cos/q]     J = int 1/q
-//! 2 A int cos/q^2 = P + [sin/q]           2 k int cos sin^2/q^2 = [sin/q] - P     P = int cos/q
-//! 2 B int sin/q^2 = Q - [cos/q]           2 k int sin cos^2/q^2 = [cos/q] + Q     Q = int sin/q
-//! ```
 
 use glam::DVec3;
 
 use super::big::{
-    self, Big, Symmetric, Vector, abs, agree, angle, asinh_over, cross, dot, mapped, nearest, root, rounded,
-    times, vector,
+    self, Big, Symmetric, Vector, abs, agree, cross, dot, mapped, nearest, root, rounded, times, vector,
 };
+use super::clipped_cone::{Principal, Rim};
 
-/// Precisions in bits, until two agree. Two words hold the first ones, which most that escalates needs; eigenvalues of f32's
-/// extremes differ by 2^2200.
+/// Precisions in bits, until two agree, the first of two words. Eigenvalues of f32's extremes differ by 2^2200.
 const PRECISIONS: [usize; 9] = [96, 128, 256, 512, 1024, 2048, 4096, 8192, 16384];
+
 /// What must be 0 is 2^-20 of a sensitivity.
 const REMAINDER: isize = 20;
+
+/// What a sensitivity may be off by.
+pub const PERCENT: f64 = 0.01;
 
 /// Enough for Newton's first steps.
 const COARSE: usize = 96;
@@ -69,25 +62,26 @@ impl GradedCone {
         if exact.minus_det <= Big::ZERO {
             return dark;
         }
-        let mut before: Option<(Big, Big)> = None;
+        let mut before: Option<Attempt> = None;
         for bits in PRECISIONS {
-            let start = before.as_ref().map(|(root, _)| root);
-            let Some(cone) = Principal::new(&exact, bits, start) else { continue };
-            let Some((value, integrals)) = cone.irradiance(&rounded(&exact.dual[2], bits), bits) else {
-                continue;
-            };
-            if let Some((_, other)) = &before
-                && agree(&value, other)
-                && let Some(sensitivity) =
-                    self.sensitivity(&exact, &cone.gradient(&integrals, bits), bits, &of_light)
+            let start = before.as_ref().map(|before| &before.framed.cone.l);
+            let Some(framed) = Framed::new(&exact, bits, start) else { continue };
+            let szz = rounded(&exact.dual[2], bits);
+            let Some((value, rim)) = framed.cone.irradiance(&szz, bits) else { continue };
+            let attempt = Attempt { framed, value, rim, bits };
+            if let Some(before) = &before
+                && agree(&attempt.value, &before.value, bits - before.bits)
+                && let Some(sensitivity) = self.sensitivity(&exact, &attempt, &of_light)
+                && let Some(other) = self.sensitivity(&exact, before, &of_light)
+                && (sensitivity - other).abs() <= PERCENT * sensitivity
             {
-                let value = nearest(&value);
+                let value = nearest(&attempt.value);
                 return Irradiance { value, bound: 0.5 * f64::EPSILON * value, sensitivity };
             }
-            before = Some((cone.l, value));
+            before = Some(attempt);
         }
         Irradiance {
-            value: before.map_or(0.0, |(_, value)| nearest(&value)),
+            value: before.map_or(0.0, |before| nearest(&before.value)),
             bound: 1.0,
             sensitivity: f64::INFINITY,
         }
@@ -120,10 +114,11 @@ impl GradedCone {
     fn sensitivity(
         &self,
         exact: &Exact,
-        gradient: &Symmetric,
-        bits: usize,
+        attempt: &Attempt,
         of_light: &impl Fn(&Symmetric) -> Big,
     ) -> Option<f64> {
+        let bits = attempt.bits;
+        let gradient = &attempt.framed.gradient(&attempt.rim, bits);
         let minv = exact.minv.each_ref().map(|column| column.each_ref().map(|entry| rounded(entry, bits)));
         // Columns G m; then G M O, and M^T G M.
         let by_gradient = minv.each_ref().map(|column| times(gradient, column));
@@ -157,17 +152,21 @@ fn minors([x, y, z, xy, xz, yz]: &Symmetric) -> Symmetric {
     [y * z - yz * yz, x * z - xz * xz, x * y - xy * xy, xz * yz - xy * z, xy * yz - xz * y, xy * xz - yz * x]
 }
 
-/// Eigenvalues and axes.
-struct Principal {
-    e1: Big,
-    e3: Big,
-    l: Big,
-    /// sqrt(e1 e3 l).
-    volume: Big,
+/// What one precision has found.
+struct Attempt {
+    framed: Framed,
+    value: Big,
+    rim: Rim<Big>,
+    bits: usize,
+}
+
+/// The cone in its principal frame, and that frame.
+struct Framed {
+    cone: Principal<Big>,
     axes: [Vector; 3],
 }
 
-impl Principal {
+impl Framed {
     fn new(exact: &Exact, bits: usize, start: Option<&Big>) -> Option<Self> {
         let round = |x: &Big| rounded(x, bits);
         let dual = exact.dual.each_ref().map(round);
@@ -235,120 +234,19 @@ impl Principal {
         let w2: Vector = std::array::from_fn(|k| &cos * &b2[k] - &sin * &b1[k]);
         let e3 = &c0 / &l / &e1;
         let e3 = if e3 > e1 { e1.clone() } else { e3 };
-        Some(Principal { e1, e3, l, volume: c0.sqrt(), axes: [w1, w2, w3] })
-    }
-
-    /// The irradiance, and integrals over the visible rim; `szz` is S_zz.
-    fn irradiance(&self, szz: &Big, bits: usize) -> Option<(Big, Integrals)> {
-        let Principal { e1, e3, l, axes, .. } = self;
-        let (a, b, c) = (e1.sqrt(), e3.sqrt(), l.sqrt());
-        let [z1, z2, z3] = axes.each_ref().map(|axis| axis[2].clone());
-        let (up, across, middle) = (&z1 * &a, &z2 * &b, &z3 * &c);
-        let (big, small, k) = (l + e1, l + e3, e1 - e3);
-        let mean = (&big * &small).sqrt();
-        let pi = Big::pi(bits);
-        let tau = pi.clone() << 1;
-        let zero = Big::ZERO;
-        let (value, integrals) = if *szz <= zero {
-            let value = &a * &b / &mean * &z3;
-            let whole = (&tau / &mean) >> 1;
-            let integrals = Integrals {
-                cc: &whole / &big,
-                ss: &whole / &small,
-                cs: zero.clone(),
-                c: zero.clone(),
-                css: zero.clone(),
-                s: zero.clone(),
-                scc: zero,
-            };
-            (value, integrals)
-        } else {
-            let swing = root(&(&middle * &middle + szz));
-            let level = root(&(&up * &up + &across * &across));
-            if level == zero {
-                return None;
-            }
-            let (cos0, sin0) = (&up / &level, &across / &level);
-            let (cos_d, sin_d) = (-&middle / &swing, root(szz) / &swing);
-            let (cos1, sin1) = (&cos0 * &cos_d + &sin0 * &sin_d, &sin0 * &cos_d - &cos0 * &sin_d);
-            let (cos2, sin2) = (&cos0 * &cos_d - &sin0 * &sin_d, &sin0 * &cos_d + &cos0 * &sin_d);
-            let q = |cos: &Big, sin: &Big| &big * cos * cos + &small * sin * sin;
-            let (q1, q2) = (q(&cos1, &sin1), q(&cos2, &sin2));
-            let d = ((&cos0 * &sin_d) << 1) / root(&(&q1 * &q2));
-            let p = &d * asinh_over(&(&d * &d * &k * &big), bits);
-            let g = ((&sin0 * &sin_d) << 1) / &small;
-            let y = root(&(&g * &g * &k * &small));
-            let x = Big::ONE + &k / &small * (&cos0 * &cos0 - &sin_d * &sin_d);
-            let q = if y == zero { &g / x } else { &g * angle(&y, &x, &pi) / &y };
-            let (u, v) = ((&mean * &sin_d * &cos_d) << 1, &big * &cos1 * &cos2 + &small * &sin1 * &sin2);
-            let turn = if u < zero { &tau - angle(&-u, &v, &pi) } else { angle(&u, &v, &pi) };
-            let j = turn / &mean;
-            let area =
-                &sin_d * root(&(l * (e3 * &cos0 * &cos0 + e1 * &sin0 * &sin0) + e1 * e3 * &cos_d * &cos_d));
-            let plane = &cos_d * &cos_d * (e1 * &cos0 * &cos0 + e3 * &sin0 * &sin0) + l
-                - &sin_d * &sin_d * (e1 * &sin0 * &sin0 + e3 * &cos0 * &cos0);
-            let dphi = angle(&(area << 1), &plane, &pi);
-            let contour = &a * &b * &z3 * &j - &b * &c * &z1 * &p - &a * &c * &z2 * &q;
-            let value = (contour + dphi) / &tau;
-
-            let ends = |f1: Big, f2: Big| f2 / &q2 - f1 / &q1;
-            let of_both = ends(&sin1 * &cos1, &sin2 * &cos2);
-            let (of_sin, of_cos) = (ends(sin1.clone(), sin2.clone()), ends(cos1.clone(), cos2.clone()));
-            let cubed = |x: &Big| x * x * x;
-            // What is left of k's digits would be rounding.
-            let (css, scc) = if k.clone() << (bits / 3) as isize <= big {
-                let three = Big::from(3) * &big * &big;
-                ((cubed(&sin2) - cubed(&sin1)) / &three, (cubed(&cos1) - cubed(&cos2)) / &three)
-            } else {
-                ((&of_sin - &p) / (k.clone() << 1), (&of_cos + &q) / (k << 1))
-            };
-            let integrals = Integrals {
-                cc: (&j + &of_both) / (big.clone() << 1),
-                ss: (&j - &of_both) / (small.clone() << 1),
-                cs: (&cos1 * &cos1 - &cos2 * &cos2) / ((q1 * q2) << 1),
-                c: (p + of_sin) / (big << 1),
-                css,
-                s: (q - of_cos) / (small << 1),
-                scc,
-            };
-            (value, integrals)
-        };
-        (value > Big::ZERO).then_some((value, integrals))
+        let axes = [w1, w2, w3];
+        let heights = axes.each_ref().map(|axis| axis[2].clone());
+        Some(Framed { cone: Principal { e1, e3, l, volume: c0.sqrt(), heights }, axes })
     }
 
     /// dE/dS.
-    fn gradient(&self, of: &Integrals, bits: usize) -> Symmetric {
-        let Principal { e1, e3, l, volume, axes } = self;
-        let (a, b, c) = (e1.sqrt(), e3.sqrt(), l.sqrt());
-        let (up, across, middle) = (&axes[0][2] * &a, &axes[1][2] * &b, &axes[2][2] * &c);
-        let scale = volume / (Big::pi(bits) << 1);
-        let height = |of_cos: &Big, of_sin: &Big, of_one: &Big| {
-            (&up * of_cos + &across * of_sin + &middle * of_one) * &scale
-        };
-        let local = [
-            height(&(&of.c - &of.css), &of.scc, &of.cc) / e1,
-            height(&of.css, &(&of.s - &of.scc), &of.ss) / e3,
-            height(&of.c, &of.s, &(&of.cc + &of.ss)) / l,
-            height(&of.scc, &of.css, &of.cs) / (&a * &b),
-            -height(&of.cc, &of.cs, &of.c) / (&a * &c),
-            -height(&of.cs, &of.ss, &of.s) / (&b * &c),
-        ];
+    fn gradient(&self, rim: &Rim<Big>, bits: usize) -> Symmetric {
+        let local = self.cone.gradient(rim, bits);
         // From the principal frame to the world's.
-        let world: [Vector; 3] = std::array::from_fn(|k| axes.each_ref().map(|axis| axis[k].clone()));
+        let world: [Vector; 3] = std::array::from_fn(|k| self.axes.each_ref().map(|axis| axis[k].clone()));
         let half = world.each_ref().map(|row| times(&local, row));
         [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| dot(&half[i], &world[j]))
     }
-}
-
-/// Integrals over q^2 of cos^2, sin^2, cos sin, cos, cos sin^2, sin and sin cos^2.
-struct Integrals {
-    cc: Big,
-    ss: Big,
-    cs: Big,
-    c: Big,
-    css: Big,
-    s: Big,
-    scc: Big,
 }
 
 fn normalized(v: Vector) -> Option<Vector> {

@@ -7,7 +7,7 @@
 
 use super::big::{self, Big, Vector, abs, angle, cross, dot, nearest, rounded};
 
-/// Precisions in bits, until two agree. Corners that differ by f32's extremes cancel to 2^-1700.
+/// Precisions in bits, each twice the one before, until two agree. Corners that differ by f32's extremes cancel to 2^-1700.
 const PRECISIONS: [usize; 7] = [128, 256, 512, 1024, 2048, 4096, 8192];
 
 /// An edge's part above the horizon: theta n.z/|n|, theta the angle of (factor |n|, cosine).
@@ -73,7 +73,7 @@ pub fn irradiance<const N: usize>(corners: &[Vector; N]) -> Option<f64> {
     for bits in PRECISIONS {
         let value = sum(&edges, &ways, bits);
         if let Some(other) = &before
-            && big::agree(&value, other)
+            && big::agree(&value, other, bits / 2)
         {
             return Some(nearest(&abs(value)));
         }

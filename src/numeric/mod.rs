@@ -1,11 +1,14 @@
 //! Pure mathematics: spacing of floating-point formats, exact sums and products, quadrature, cubics, and the
 //! integrals that several families share.
 
+pub mod ball;
 pub mod big;
 pub mod binary16;
+pub mod clipped_cone;
 pub mod clipped_ellipse;
 pub mod clipped_sphere;
 pub mod cone_solid_angle;
+pub mod conjugate_cone;
 pub mod cubic;
 pub mod cylinder_silhouette;
 pub mod disk_rectangle;

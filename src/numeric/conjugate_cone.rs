@@ -1,0 +1,433 @@
+//! The irradiance from an ellipse of which vectors are known, however its cone is graded.
+//!
+//! The dual quadric S = A A^T + B B^T - C C^T of an ellipse's semi-axes A, B and centre C forgets the short ones where
+//! lengths differ by more than the root of its precision. Here the cone is taken apart in the ellipse's own frame (along A,
+//! across it, normal), where every coordinate is known relatively: what is across is area over length, and the centre's
+//! distances from A and from the plane are moment and volume over what they belong to. With l the one positive root of
+//!
+//! ```text
+//! (alpha l + beta)/((l + h1)(l + h2)) + z^2/l = 1          h1, h2: eigenvalues of H = A A^T + B B^T
+//! alpha = x^2 + y^2     beta = (x, y) adj(H) (x, y)          z: the centre over the plane
+//! ```
+//!
+//! W3 is along ((H + l)^-1 (x, y), z/l). The hyperbolic rotation that takes C to W3 sqrt(l) takes A and B to conjugate
+//! semi-axes across W3 that have the same S; one rotation in their plane makes them the principal ones. All in [`Ball`]s: what
+//! rounding and the vectors' own errors leave of the result is known with it.
+//!
+//! Source: ours; the one-sided rotation that keeps small axes is Hestenes's (1958).
+
+use glam::{DMat3, DVec3};
+
+use super::ball::Ball;
+use super::clipped_cone::Principal;
+use super::graded_cone::{Irradiance, PERCENT};
+use super::products;
+use super::twofold::Twofold;
+
+/// Three coordinates.
+pub type Vector = [Ball; 3];
+
+/// An ellipse as it is from the origin, not in a plane with it. Of any scale, and any scales within.
+#[derive(Clone, Copy, Debug)]
+pub struct ConjugateCone {
+    /// C, A, B: centre and conjugate semi-axes.
+    pub images: [Vector; 3],
+    /// A x B, C x A and C x B.
+    pub products: [Vector; 3],
+    /// [C, A, B].
+    pub volume: Ball,
+    /// A.z^2 + B.z^2 - C.z^2.
+    pub szz: Ball,
+}
+
+/// The disk that covers a sphere.
+#[derive(Clone, Copy, Debug)]
+pub struct Silhouette {
+    pub center: Vector,
+    pub distance: Ball,
+    pub radius: Ball,
+    /// Unit vectors across the centre's direction and each other.
+    pub across: [Vector; 2],
+}
+
+impl Silhouette {
+    /// Of a sphere of f32 values; `outside` is the centre's distance squared less the radius squared, rounded once.
+    pub fn new(center: DVec3, radius: f64, outside: f64) -> Self {
+        let c = vector(center);
+        let distance = dot(&c, &c).sqrt();
+        let size = center.abs();
+        let i = if size.x >= size.y && size.x >= size.z {
+            0
+        } else if size.y >= size.z {
+            1
+        } else {
+            2
+        };
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        // Every component is a product: none is less known than the others.
+        let (mut u1, mut u2) = ([Ball::ZERO; 3], [Ball::ZERO; 3]);
+        let level = c[i].hypot(c[j]);
+        (u1[i], u1[j]) = (-c[j] / level, c[i] / level);
+        let by = Ball::ONE / (level * distance);
+        (u2[i], u2[j], u2[k]) = (-c[k] * c[i] * by, -c[k] * c[j] * by, level / distance);
+        let radius = distance * Ball::exact(radius).abs() / Ball::rounded(outside, 1.0).sqrt();
+        Silhouette { center: c, distance, radius, across: [u1, u2] }
+    }
+}
+
+/// What is seen of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// The irradiance as a share of the full hemisphere's.
+    pub value: f64,
+    /// Absolute error bound.
+    pub bound: f64,
+    /// C, A and B in the principal frame.
+    pub images: [Vector; 3],
+    /// The principal axes.
+    axes: [Vector; 3],
+    /// G with dE = sum of G_ij dS_ij in their frame: xx, yy, zz, xy, xz, yz.
+    gradient: [Ball; 6],
+}
+
+impl Seen {
+    /// With the sum of all changes x dE/dx; nothing where that has lost its digits.
+    pub fn with_sensitivity(&self, sum: Ball) -> Option<Irradiance> {
+        let &Seen { value, bound, .. } = self;
+        (sum.relative() <= PERCENT).then(|| Irradiance { value, bound, sensitivity: sum.value() })
+    }
+
+    /// G v for a vector in the principal frame.
+    pub fn by(&self, [x, y, z]: Vector) -> Vector {
+        let [xx, yy, zz, xy, xz, yz] = self.gradient;
+        let local = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
+        let [w1, w2, w3] = self.axes;
+        [0, 1, 2].map(|k| w1[k] * local[0] + w2[k] * local[1] + w3[k] * local[2])
+    }
+}
+
+/// The bound that more digits are asked for at, as a share of the value.
+const ACCURACY: f64 = 1.0 / (1u64 << 36) as f64;
+
+const EPS: f64 = f64::EPSILON / 2.0;
+
+/// What sums of exact products keep of their terms, 2^-102.
+const PAIRS: f64 = 1.0 / (1u128 << 102) as f64;
+
+/// An ellipse is round for whom the squares of its semi-axes differ by less than this power of 1/2.
+const ROUND: isize = 7;
+
+/// Steps towards l, each of which has the digits of the one before twice.
+const STEPS: usize = 64;
+
+/// These very numbers.
+pub fn vector(v: DVec3) -> Vector {
+    v.to_array().map(Ball::exact)
+}
+
+pub fn dot(a: &Vector, b: &Vector) -> Ball {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub fn cross(a: &Vector, b: &Vector) -> Vector {
+    let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+fn scaled(v: &Vector, by: Ball) -> Vector {
+    v.map(|component| component * by)
+}
+
+/// The ellipse in its own frame.
+struct Local {
+    /// Unit vectors along A, across and normal.
+    frame: [Vector; 3],
+    along: Ball,
+    shear: Ball,
+    across: Ball,
+    center: Vector,
+    /// adj(H) (x, y).
+    turned: [Ball; 2],
+    sum: Ball,
+    product: Ball,
+    alpha: Ball,
+    beta: Ball,
+}
+
+impl ConjugateCone {
+    /// Of `light`, centre and conjugate semi-axes, under `minv`, all of f32 values; volume and S_zz are known better than from
+    /// their images.
+    pub fn of_ellipse(minv: &[DVec3; 3], light: &[DVec3; 3], volume: Ball, szz: Ball) -> Self {
+        let [c, a, b] = *light;
+        let cofactors = products::cofactors(&DMat3::from_cols(minv[0], minv[1], minv[2]));
+        let product = |p: DVec3, q: DVec3| {
+            let pairs = products::cross(p, q);
+            let rounded = products::cofactors_times(&cofactors, &pairs);
+            let terms = |row: usize| (0..3).map(|k| (cofactors[k][row].0 * pairs[k].0).abs()).sum::<f64>();
+            [0, 1, 2].map(|row| Ball::within(rounded[row], EPS * rounded[row].abs() + PAIRS * terms(row)))
+        };
+        let image = |v: DVec3| {
+            [0, 1, 2].map(|row| {
+                let terms = [minv[0][row] * v.x, minv[1][row] * v.y, minv[2][row] * v.z];
+                let sum = Twofold::sum3(terms[0], terms[1], terms[2]);
+                let size = terms[0].abs() + terms[1].abs() + terms[2].abs();
+                Ball::within(sum.value(), sum.lo.abs() + PAIRS * size)
+            })
+        };
+        let products = [product(a, b), product(c, a), product(c, b)];
+        ConjugateCone { images: light.map(image), products, volume, szz }
+    }
+
+    /// Of a sphere around `center`, from outside, by its silhouette: a disk about the same centre with half axes `radius` times those
+    /// two unit vectors across. `radius` is the distance times the tangent of the angle that it is seen under.
+    pub fn of_sphere(minv: &[DVec3; 3], silhouette: &Silhouette, szz: Ball) -> Self {
+        let Silhouette { center, distance, radius, across: [u1, u2] } = silhouette;
+        let matrix = DMat3::from_cols(minv[0], minv[1], minv[2]);
+        let cofactors = products::cofactors(&matrix);
+        let columns = minv.map(vector);
+        let image =
+            |v: &Vector| [0, 1, 2].map(|row| (0..3).fold(Ball::ZERO, |sum, k| sum + columns[k][row] * v[k]));
+        let product = |v: &Vector| {
+            [0, 1, 2].map(|row| {
+                (0..3).fold(Ball::ZERO, |sum, k| sum + Ball::rounded(cofactors[k][row].0, 1.0) * v[k])
+            })
+        };
+        let area = *radius * *radius;
+        let images = [image(center), scaled(&image(u1), *radius), scaled(&image(u2), *radius)];
+        let moment = *distance * *radius;
+        let products = [
+            scaled(&product(center), area / *distance),
+            scaled(&product(u2), moment),
+            scaled(&product(u1), -moment),
+        ];
+        let volume = Ball::rounded(products::determinant(&matrix), 1.0) * area * *distance;
+        ConjugateCone { images, products, volume, szz }
+    }
+
+    /// The irradiance on a plane with normal +z; nothing where this arithmetic does not do.
+    pub fn irradiance(&self) -> Option<Seen> {
+        let local = self.local();
+        let l = local.root()?;
+        let (cone, axes, [center, longer, other]) = local.principal(l)?;
+        let (value, rim) = cone.irradiance(&self.szz, 53)?;
+        if !(value.relative() <= ACCURACY) {
+            return None;
+        }
+        let gradient = cone.gradient(&rim, 53);
+        let (a, b) = if self.first_is_longer() {
+            (longer, other)
+        } else {
+            (other.map(|component| -component), longer)
+        };
+        Some(Seen {
+            // No more than all of the hemisphere, within the bound.
+            value: value.value().min(1.0),
+            bound: value.error(),
+            images: [center, a, b],
+            axes: axes.map(|axis| {
+                [0, 1, 2].map(|k| (0..3).fold(Ball::ZERO, |sum, i| sum + axis[i] * local.frame[i][k]))
+            }),
+            gradient,
+        })
+    }
+
+    fn first_is_longer(&self) -> bool {
+        let [_, a, b] = &self.images;
+        dot(a, a).is_above(dot(b, b))
+    }
+
+    fn local(&self) -> Local {
+        let [c, a, b] = self.images;
+        let [normal, of_a, of_b] = self.products;
+        // A quarter turn of the pair leaves the ellipse.
+        let (a, b, of_a, of_b) = if self.first_is_longer() {
+            (a, b, of_a, of_b)
+        } else {
+            (b, a.map(|component| -component), of_b, of_a.map(|component| -component))
+        };
+        let (along, area) = (dot(&a, &a).sqrt(), dot(&normal, &normal).sqrt());
+        let (by_along, by_area) = (Ball::ONE / along, Ball::ONE / area);
+        let across = area * by_along;
+        let shear = dot(&a, &b) * by_along;
+        // [A, C] and [B, C] in the plane.
+        let (turn_a, turn_b) = (-dot(&normal, &of_a) * by_area, -dot(&normal, &of_b) * by_area);
+        let (x, y) = (dot(&a, &c) * by_along, turn_a * by_along);
+        let z = self.volume * by_area;
+        let turn_b = turn_b.or(shear * y - across * x);
+        let (e1, e3) = (scaled(&a, by_along), scaled(&normal, by_area));
+        let e2 = cross(&e3, &e1);
+        let by_across = Ball::ONE / across;
+        let e2 = [0, 1, 2].map(|k| e2[k].or((b[k] - shear * e1[k]) * by_across));
+        Local {
+            frame: [e1, e2, e3],
+            along,
+            shear,
+            across,
+            center: [x, y, z],
+            turned: [-across * turn_b, along * turn_a + shear * turn_b],
+            sum: along * along + shear * shear + across * across,
+            product: (along * across) * (along * across),
+            alpha: x * x + y * y,
+            beta: turn_a * turn_a + turn_b * turn_b,
+        }
+    }
+}
+
+impl Local {
+    /// l: steps of which each has one pole for both, with their value and slope; the last one says how far off it is.
+    fn root(&self) -> Option<Ball> {
+        let &Local { along, shear, across, center: [x, y, z], turned, sum, product, alpha, beta, .. } = self;
+        let height = z * z;
+        let kappa = turned[0] * turned[0] + turned[1] * turned[1];
+        let on = [along * x, shear * x + across * y];
+        let gamma = on[0] * on[0] + on[1] * on[1];
+        let [height_0, product_0, alpha_0, beta_0, kappa_0, gamma_0] =
+            [height, product, alpha, beta, kappa, gamma].map(Ball::middle);
+        let mut l = height_0 + alpha_0;
+        for _ in 0..STEPS {
+            let above = alpha_0 * l + beta_0;
+            let slope = (alpha_0 * l + beta_0 + beta_0) * l + kappa_0;
+            let next = if slope.is_zero() {
+                height_0
+            } else {
+                let pole = ((gamma_0 * l + product_0 * alpha_0 + product_0 * alpha_0) * l
+                    + beta_0 * product_0)
+                    / slope;
+                let strength = above * above / slope;
+                // l^2 + (pole - strength - z^2) l - z^2 pole = 0.
+                let half = (strength + height_0 - pole) >> 1;
+                let length = (half * half + height_0 * pole).sqrt();
+                if half.is_above(Ball::ZERO) { half + length } else { height_0 * pole / (length - half) }
+            };
+            let next = next.middle();
+            let close = ((next - l).abs() << 50).is_above(l);
+            l = next;
+            if !close {
+                break;
+            }
+        }
+        // The sum falls with l, and is convex: between l and the root its slope is no flatter than where it is flatter.
+        let square = (l + sum) * l + product;
+        let (poles, plane) = ((alpha * l + beta) / square, height / l);
+        let slope = ((alpha * l + beta + beta) * l + kappa) * l / (square * square) + plane;
+        let off = (poles + plane - Ball::ONE).largest() / slope;
+        let relative = off.largest();
+        // At 1 + r times l the slope is at least that over (1 + r)^3.
+        (relative < Ball::exact(1e-8)).then(|| l.widened(relative * Ball::exact(1.000_001)))
+    }
+
+    /// The principal frame: eigenvalues and heights, the axes in this frame, and C, A, B in that one.
+    fn principal(&self, l: Ball) -> Option<(Principal<Ball>, [Vector; 3], [Vector; 3])> {
+        let &Local { along, shear, across, center: [x, y, z], turned, sum, product, beta, .. } = self;
+        let share = z * z / l;
+        let square = (l + sum) * l + product;
+        let kappa = turned[0] * turned[0] + turned[1] * turned[1];
+        // e1 + e3 and e1 e3.
+        let (both, least) = ((l * beta + kappa) / square + sum * share, product * share);
+
+        let w = [(l * x + turned[0]) / square, (l * y + turned[1]) / square, z / l];
+        let length = dot(&w, &w).sqrt();
+        let w3 = scaled(&w, Ball::ONE / length);
+        let root = l.sqrt();
+        // What A and B have of W3, over sqrt(l), and the rotation that takes it from them.
+        let (of_a, of_b) = (along * w3[0] / root, (shear * w3[0] + across * w3[1]) / root);
+        let gamma = (Ball::ONE + of_a * of_a + of_b * of_b).sqrt();
+        let from = Ball::ONE / (Ball::ONE + gamma);
+        let u = [(of_a * along + of_b * shear) * from - x, of_b * across * from - y, -z];
+        let a = across_axis([along + of_a * u[0], of_a * u[1], of_a * u[2]], &w3);
+        let b = across_axis([shear + of_b * u[0], across + of_b * u[1], of_b * u[2]], &w3);
+
+        let (tau, skew) = ((dot(&a, &a) - dot(&b, &b)) >> 1, dot(&a, &b));
+        let h = tau.hypot(skew);
+        let e1 = (both >> 1) + h;
+        let e3 = least / e1;
+        // Near a circle any turn of the pair does, to what its squares and product are then off by.
+        let round = !(h << ROUND).is_above(both);
+        let slack = if round { (tau.radius() + skew.radius()) / e3 } else { Ball::ZERO };
+        let (e1, e3) = (e1.widened(slack), e3.widened(slack));
+        let (tau, skew, h) = if round { (tau.middle(), skew.middle(), h.middle()) } else { (tau, skew, h) };
+        let (cos, sin) = if h.is_zero() {
+            (Ball::ONE, Ball::ZERO)
+        } else {
+            let half = |x: Ball| ((Ball::ONE + x / h) >> 1).sqrt();
+            if tau.is_above(Ball::ZERO) {
+                let cos = half(tau);
+                (cos, (skew >> 1) / (h * cos))
+            } else {
+                let sin = half(-tau);
+                ((skew >> 1) / (h * sin), sin)
+            }
+        };
+        let first: Vector = [0, 1, 2].map(|k| cos * a[k] + sin * b[k]);
+        let w1 = scaled(&first, Ball::ONE / dot(&first, &first).sqrt());
+        let second: Vector = [0, 1, 2].map(|k| cos * b[k] - sin * a[k]);
+        let w2 = cross(&w3, &w1);
+        // The root of e3 by the sense of this pair: a turn from A to B may go either way around W3.
+        let sense = dot(&w2, &second);
+        let r2 = if sense.is_above(Ball::ZERO) { e3.sqrt() } else { -e3.sqrt() };
+        let certain = sense.relative() < 1.0;
+        let w2 = if round { w2 } else { [0, 1, 2].map(|k| w2[k].or(second[k] / r2)) };
+        // The rotations back, in units of the roots of the eigenvalues.
+        let r1 = e1.sqrt();
+        let (g1, g2) = (of_a * cos + of_b * sin, of_b * cos - of_a * sin);
+        let images = [
+            [r1 * g1, r2 * g2, root * gamma],
+            [r1 * (cos + of_a * from * g1), r2 * (of_a * from * g2 - sin), root * of_a],
+            [r1 * (sin + of_b * from * g1), r2 * (cos + of_b * from * g2), root * of_b],
+        ];
+        let height = |axis: Vector| (0..3).fold(Ball::ZERO, |sum, k| sum + axis[k] * self.frame[k][2]);
+        let [up, level, middle] = [w1, w2, w3].map(height);
+        let turned = Ball::up_to(slack * up.hypot(level));
+        let heights = [up + turned, level + turned, middle];
+        let volume = along * across * z.abs();
+        certain.then_some((Principal { e1, e3, l, volume, heights }, [w1, w2, w3], images))
+    }
+}
+
+/// v, which is across the unit vector `axis`: what lies along it most, from the rest, if that is better.
+fn across_axis(v: Vector, axis: &Vector) -> Vector {
+    let size = axis.map(Ball::abs);
+    let most = (0..3).fold(0, |most, k| if size[k].is_above(size[most]) { k } else { most });
+    let (i, j) = ((most + 1) % 3, (most + 2) % 3);
+    let mut v = v;
+    v[most] = v[most].or(-(v[i] * axis[i] + v[j] * axis[j]) / axis[most]);
+    v
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A circle of radius r straight above at 1 under a Minv that stretches z by s: (r/s)^2/(1 + (r/s)^2), at any scale, and of
+    /// every height what scale leaves of it.
+    #[test]
+    fn circles_of_any_size_are_their_sine_squared() {
+        for exponent in [-120, -10, 0, 7, 100] {
+            let s = libm::ldexp(1.0, exponent);
+            let (minv, light) = ([DVec3::X, DVec3::Y, s * DVec3::Z], [DVec3::Z, DVec3::X, DVec3::Y]);
+            let height = Ball::exact(s);
+            let cone = ConjugateCone::of_ellipse(&minv, &light, height, -(height * height));
+            let seen = cone.irradiance().unwrap();
+            let expected = 1.0 / (1.0 + s * s);
+            assert!((seen.value - expected).abs() <= seen.bound, "{s}: {seen:?} {expected}");
+            assert!(seen.bound <= 1e-13 * expected, "{s}: {seen:?}");
+            // E = aa/(aa + cc): dE/da over 2 a for each of two axes, and dE/dc.
+            let [of_c, of_a, of_b] = seen.images.map(|image| seen.by(image));
+            let slope = s * s * expected * expected;
+            for (found, expected) in [(of_c[2], slope / s), (of_a[0], 0.5 * slope), (of_b[1], 0.5 * slope)] {
+                assert!((found.value() / expected - 1.0).abs() < 1e-12, "{s}: {found:?} {expected}");
+            }
+        }
+    }
+
+    /// A light that the point is on has no frame, and one below the horizon no irradiance.
+    #[test]
+    fn what_is_not_seen_is_left_to_others() {
+        let minv = [DVec3::X, DVec3::Y, DVec3::Z];
+        let seen = |light: [DVec3; 3], volume: f64, szz: f64| {
+            ConjugateCone::of_ellipse(&minv, &light, Ball::exact(volume), Ball::exact(szz)).irradiance()
+        };
+        assert!(seen([DVec3::X, DVec3::X, DVec3::Y], 0.0, 0.0).is_none());
+        assert!(seen([-DVec3::Z, DVec3::X, DVec3::Y], -1.0, -1.0).is_none());
+    }
+}
