@@ -270,7 +270,7 @@ impl Principal {
         let height = axes.z_axis.z;
         let value = (libm::sqrt(e1 * e3 / gap) * height).min(1.0);
         let bound = (24.0 * EPS + noise + noise / height) * value;
-        let gradient = self.gradient(&Integrals::around(self));
+        let gradient = self.gradient(&Integrals::around(self))?;
         (height > 0.0).then_some(Irradiance { value, bound, escalated: false, gradient })
     }
 
@@ -333,14 +333,17 @@ impl Principal {
             (big, small),
             [of_cos, of_sin, of_one],
             [[cos1, sin1, q1], [cos2, sin2, q2]],
-        ));
+        ))?;
         if bound <= ACCURACY * value {
             return Some(Irradiance { value, bound, escalated: false, gradient });
         }
         let (value, resolved) = self.area(swing, (cos0, sin0), (cos_d, sin_d));
         let bound = (64.0 * EPS + 4.0 * noise + 4.0 * disturbed) * value;
+        // As many more digits as the closed form lost the gradient lost of its axes.
+        let lost = terms / value;
+        let known = e3.min(l) >= GRADED * lost * lost * e1.max(l);
         // Poles closer to the segment than f64 tells angles apart: nothing is promised.
-        resolved.then_some(Irradiance { value, bound, escalated: true, gradient })
+        (resolved && known).then_some(Irradiance { value, bound, escalated: true, gradient })
     }
 
     /// G_ij = dE/dS_ij, from the integrals over the visible rim.
@@ -348,7 +351,10 @@ impl Principal {
     /// A change dS moves the rim outward by n^T dS n / (2 |S n|) with n the unit normal of the tangent plane, and what
     /// it sweeps counts with its height: E changes by (1/pi) times the integral of height times that along the rim, as
     /// [`super::graded_cone`] has it in u.
-    fn gradient(&self, of: &Integrals) -> DMat3 {
+    ///
+    /// Nothing where less than a percent is known of it: no scale changes anything, so that tr(G S) is 0 where all three terms
+    /// are positive, and what it is instead is what rounding left of slivers.
+    fn gradient(&self, of: &Integrals) -> Option<DMat3> {
         let &Principal { e1, e3, l, axes, .. } = self;
         let (a, b, c) = (libm::sqrt(e1), libm::sqrt(e3), libm::sqrt(l));
         let (up, across, middle) = (axes.x_axis.z * a, axes.y_axis.z * b, axes.z_axis.z * c);
@@ -360,8 +366,9 @@ impl Principal {
         let xy = c / TAU * height(of.scc, of.css, of.cs);
         let xz = -b / TAU * height(of.cc, of.cs, of.c);
         let yz = -a / TAU * height(of.cs, of.ss, of.s);
+        let remainder = (e1 * xx + e3 * yy - l * zz).abs();
         let local = DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
-        axes * local * axes.transpose()
+        (remainder <= REMAINDER * l * zz).then(|| axes * local * axes.transpose())
     }
 }
 
