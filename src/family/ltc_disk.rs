@@ -8,7 +8,7 @@
 //! det Minv times that of the light, each rounded once. Lights seen edge-on, without area or under a singular Minv
 //! give exactly 0, also where the point lies on the light itself, and so do lights below the horizon.
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec3};
 
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
@@ -18,8 +18,11 @@ use crate::numeric::clipped_ellipse::{Changes, Cone};
 use crate::numeric::conjugate_cone::{self, ConjugateCone};
 use crate::numeric::exact3;
 use crate::numeric::graded_cone::{self, GradedCone};
-use crate::numeric::spacing::UNIT_ROUNDOFF;
 use crate::sample::{Draw, ggx, landmarks};
+
+mod jumps;
+
+use jumps::jumps;
 
 pub(super) struct LtcDisk;
 
@@ -319,81 +322,6 @@ fn sensitivity(
     of_minv.size(of_light)
 }
 
-/// A jump that is further than 16 roundings of all inputs away is none.
-const NEAR: f64 = 16.0 * UNIT_ROUNDOFF;
-
-/// What changes of the inputs do of which no derivative knows: the irradiance's jumps where they take the point through the
-/// light or, in its plane, over its rim, times how far a relative change of every input by one takes it, over how far away
-/// that is; 0 where roundings do not take it there.
-fn jumps(minv: &[DVec3; 3], light: &[DVec3; 3], value: f64) -> f64 {
-    let plane = volume_change(minv) + volume_change(light);
-    let foot = Foot::new(minv, light);
-    let mut sum = 0.0;
-    // In its plane, the light is half of all directions to who is within, and nothing to others.
-    if plane * NEAR > 1.0 && foot.radius < 1.0 {
-        sum += (1.0 - 2.0 * value).abs() * plane;
-    }
-    let rim = foot.moves / (foot.radius - 1.0).abs();
-    // Above the plane by no more than the roundings move it within, it goes over the rim at once.
-    if rim * NEAR > 1.0 && foot.height.abs() < NEAR * foot.moves * foot.reach {
-        let within = 0.5 * (1.0 + foot.height.signum() * foot.normal.z);
-        sum += rim * if foot.radius < 1.0 { value } else { within };
-    }
-    sum
-}
-
-/// The relative change of a determinant for one of all its entries by one.
-fn volume_change([a, b, c]: &[DVec3; 3]) -> f64 {
-    let [of_a, of_b, of_c] = [b.cross(*c), c.cross(*a), a.cross(*b)];
-    let sum = ((*a * of_a).abs() + (*b * of_b).abs() + (*c * of_c).abs()).element_sum();
-    sum / a.dot(of_a).abs()
-}
-
-/// Where the point's foot is in the light's plane, after Minv.
-struct Foot {
-    /// Of the plane.
-    normal: DVec3,
-    /// Of the plane over the point, along the normal.
-    height: f64,
-    /// From the centre, in units of the light's own length in that direction.
-    radius: f64,
-    /// What a relative change of every input by one changes of that.
-    moves: f64,
-    /// A radius of one across the rim.
-    reach: f64,
-}
-
-impl Foot {
-    fn new(minv: &[DVec3; 3], [c, a, b]: &[DVec3; 3]) -> Self {
-        // Cofactors map cross products, however the matrix is graded.
-        let cofactors =
-            DMat3::from_cols(minv[1].cross(minv[2]), minv[2].cross(minv[0]), minv[0].cross(minv[1]));
-        let minv = DMat3::from_cols(minv[0], minv[1], minv[2]);
-        let area = a.cross(*b);
-        let normal = cofactors * area;
-        let size = normal.length();
-        let normal = normal / size;
-        let weights = cofactors.transpose() * normal / size;
-        let terms = |p: &DVec3, q: &DVec3| {
-            let cross = |p: DVec3, q: DVec3| {
-                DVec3::new(p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x)
-            };
-            weights.abs().dot(cross(p.abs(), q.abs()))
-        };
-        let at = DVec2::new(weights.dot(c.cross(*b)), weights.dot(a.cross(*c)));
-        let moved = 2.0 * (DVec2::new(terms(c, b), terms(a, c)) + at.abs() * terms(a, b));
-        let radius = at.length();
-        let tangent = minv * (at.x * *b - at.y * *a) / radius;
-        Foot {
-            normal,
-            height: minv.determinant() * (c.dot(area) / size),
-            radius,
-            moves: at.abs().dot(moved) / radius,
-            reach: size / tangent.length(),
-        }
-    }
-}
-
 /// Centre and conjugate semi-axes after Minv.
 fn images(input: &[f32]) -> [DVec3; 3] {
     let minv = DMat3::from_cols_array(&std::array::from_fn(|i| f64::from(input[MINV + i])));
@@ -509,9 +437,12 @@ fn edge(draw: &mut Draw, row: &mut [f32]) {
 mod tests {
     use std::f64::consts::TAU;
 
+    use glam::DVec2;
+
     use super::*;
     use crate::family::problem::CERTIFIED;
     use crate::numeric::graded_cone::Agreement;
+    use crate::numeric::spacing::UNIT_ROUNDOFF;
     use crate::sample::Stream;
 
     fn truth_of(input: &[f32]) -> Truth {
@@ -692,7 +623,7 @@ mod tests {
     fn no_exponents_are_too_large_or_small() {
         let mut agreement = Agreement::default();
         Stream::new(12, "exponents").visit(0, 2_000, |_, draw| {
-            let row: [f32; 18] = std::array::from_fn(|_| Agreement::any(draw));
+            let row: [f32; 18] = std::array::from_fn(|_| landmarks::any_exponent(draw));
             compare(&mut agreement, &row, &truth_of(&row));
         });
         agreement.check("exponents");

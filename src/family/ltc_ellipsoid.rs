@@ -285,7 +285,7 @@ mod tests {
     use super::*;
     use crate::family::problem::CERTIFIED;
     use crate::numeric::graded_cone::Agreement;
-    use crate::sample::Stream;
+    use crate::sample::{Stream, landmarks};
 
     fn truth_of(input: &[f32]) -> Truth {
         let mut truth = Truth::new(LtcEllipsoid.outputs());
@@ -357,7 +357,7 @@ mod tests {
         Stream::new(12, "exponents").visit(0, 2_000, |_, draw| {
             let mut row = [0.0; 19];
             (LtcEllipsoid.scenario("ggx").unwrap().draw)(draw, &mut row);
-            (0..ROTATION).chain(RADIUS..19).for_each(|at| row[at] = Agreement::any(draw));
+            (0..ROTATION).chain(RADIUS..19).for_each(|at| row[at] = landmarks::any_exponent(draw));
             compare(&mut agreement, &row);
         });
         agreement.check("exponents");

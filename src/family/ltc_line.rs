@@ -21,7 +21,7 @@ use glam::{DMat3, DVec3};
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::line_integral::{Visible, matrix, vector, visible};
-use crate::numeric::products::{self, norm};
+use crate::numeric::products::{self, cross_terms, norm};
 use crate::sample::{Draw, ggx, landmarks};
 
 pub(super) struct LtcLine;
@@ -240,12 +240,8 @@ fn sensitivity(
 /// Where |det| |n| = 0 the value has a kink: by how much it may grow.
 fn degenerate_sensitivity(minv: &DMat3, p1: DVec3, p2: DVec3, part: &Visible) -> f64 {
     let integral = part.cosine_integral() / part.length_product();
-    let absolute = |a: DVec3, b: DVec3| {
-        let (a, b) = (a.abs(), b.abs());
-        DVec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x)
-    };
-    let normal_change = 2.0 * norm(absolute(p1, p2));
-    let determinant_change = 3.0 * minv.x_axis.abs().dot(absolute(minv.y_axis, minv.z_axis));
+    let normal_change = 2.0 * norm(cross_terms(p1, p2));
+    let determinant_change = 3.0 * minv.x_axis.abs().dot(cross_terms(minv.y_axis, minv.z_axis));
     let determinant = minv.determinant().abs();
     let size = norm(p1.cross(p2));
     finite(FRAC_2_PI * integral * (determinant * normal_change + size * determinant_change))

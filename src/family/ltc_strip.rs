@@ -198,10 +198,7 @@ fn sensitivity(minv: &DMat3, corners: &[(DVec3, DVec3); 4], by_corner: &[DVec3; 
 
 /// Where |det| |volume| vanishes the value has a kink: by how much that factor may grow.
 fn growth(minv: &DMat3, p1: DVec3, p2: DVec3, side: DVec3) -> f64 {
-    let absolute = |a: DVec3, b: DVec3, c: DVec3| {
-        let (a, b, c) = (a.abs(), b.abs(), c.abs());
-        3.0 * (a.x * (b.y * c.z + b.z * c.y) + a.y * (b.z * c.x + b.x * c.z) + a.z * (b.x * c.y + b.y * c.x))
-    };
+    let absolute = |a: DVec3, b: DVec3, c: DVec3| 3.0 * a.abs().dot(products::cross_terms(b, c));
     minv.determinant().abs() * absolute(p1, p2, side)
         + p1.dot(p2.cross(side)).abs() * absolute(minv.x_axis, minv.y_axis, minv.z_axis)
 }

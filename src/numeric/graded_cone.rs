@@ -325,18 +325,6 @@ impl Agreement {
         self.compared += 1;
     }
 
-    /// Any f32 by its exponent; a quarter are 0.
-    pub fn any(draw: &mut crate::sample::Draw) -> f32 {
-        // One variate for kind and exponent.
-        let place = draw.uniform(0.0, 8.0);
-        let size = libm::exp2(277.0 * (place - libm::floor(place)) - 149.0);
-        match place as u8 {
-            0 | 1 => 0.0,
-            2 | 4 | 6 => -size as f32,
-            _ => size as f32,
-        }
-    }
-
     /// Enough of them agreed; of sensitivities a percent is promised.
     pub fn check(self, scenario: &str) {
         let Agreement { compared, worst } = self;

@@ -101,9 +101,9 @@ fn sum(edges: &[Edge], ways: &[Way], bits: usize) -> Big {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numeric::graded_cone::Agreement;
     use crate::numeric::polygon_irradiance;
     use crate::sample::Stream;
+    use crate::sample::landmarks;
     use glam::DVec3;
 
     #[test]
@@ -125,7 +125,7 @@ mod tests {
         let (mut certain, mut uncertain) = (0, 0);
         Stream::new(8, "exponents").visit(0, 4_000, |_, draw| {
             let corners: [DVec3; 4] = std::array::from_fn(|_| {
-                DVec3::from_array(std::array::from_fn(|_| f64::from(Agreement::any(draw))))
+                DVec3::from_array(std::array::from_fn(|_| f64::from(landmarks::any_exponent(draw))))
             });
             let pairs = corners.map(|corner| corner.to_array().map(|component| (component, 0.0)));
             let found = polygon_irradiance::of_pairs(&pairs, [false; 4]);

@@ -112,11 +112,6 @@ impl Visible {
         self.lengths[0] * self.lengths[1]
     }
 
-    /// The visible part's integral of (q x dq).z/|q|^2, its share in 2 pi times the irradiance of a contour.
-    pub fn contour_term(&self) -> f64 {
-        self.angle * self.normal.z
-    }
-
     /// The derivatives, by the ends a and b of the whole segment, of the irradiance of a contour that this is a piece
     /// of: -(1/pi) times the integral of q.z/|q|^4 (q x dq), shared out by place. A few EPS of itself.
     pub fn contour_gradient(&self) -> [DVec3; 2] {

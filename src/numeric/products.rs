@@ -19,6 +19,12 @@ pub fn cross(a: DVec3, b: DVec3) -> Pairs {
     [two_sum(a.y * b.z, -(a.z * b.y)), two_sum(a.z * b.x, -(a.x * b.z)), two_sum(a.x * b.y, -(a.y * b.x))]
 }
 
+/// What the terms of each component of a x b add up to in absolute value: |a| x |b| with sums for differences.
+pub fn cross_terms(a: DVec3, b: DVec3) -> DVec3 {
+    let (a, b) = (a.abs(), b.abs());
+    a.yzx() * b.zxy() + a.zxy() * b.yzx()
+}
+
 /// The sum of exact vectors, each with a factor of -1, 1 or another power of two: off by 2^-105 of itself.
 pub fn sum(terms: &[(f64, &Pairs)]) -> Pairs {
     [0, 1, 2].map(|row| {
@@ -101,8 +107,7 @@ pub fn determinant(m: &DMat3) -> f64 {
 
 /// Whether the determinant of a matrix of f32 values is 0, exactly.
 pub fn is_singular(m: &DMat3) -> bool {
-    let (minors, sizes) = (m.y_axis.cross(m.z_axis), m.y_axis.abs().yzx() * m.z_axis.abs().zxy());
-    let sizes = sizes + m.y_axis.abs().zxy() * m.z_axis.abs().yzx();
+    let (minors, sizes) = (m.y_axis.cross(m.z_axis), cross_terms(m.y_axis, m.z_axis));
     // The products are off by less than 2^-50 of the sizes' sum. Nothing underflows.
     let doubtful = m.x_axis.dot(minors).abs() <= f64::EPSILON * 8.0 * m.x_axis.abs().dot(sizes);
     doubtful && determinant(m) == 0.0

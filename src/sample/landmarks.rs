@@ -45,6 +45,19 @@ pub fn neighbour(value: f32, offset: i64) -> f32 {
     if target < 0 { -magnitude } else { magnitude }
 }
 
+/// Any f32 by its exponent; a quarter are 0.
+#[cfg(test)]
+pub fn any_exponent(draw: &mut Draw) -> f32 {
+    // One variate for kind and exponent.
+    let place = draw.uniform(0.0, 8.0);
+    let size = libm::exp2(277.0 * (place - libm::floor(place)) - 149.0);
+    match place as u8 {
+        0 | 1 => 0.0,
+        2 | 4 | 6 => -size as f32,
+        _ => size as f32,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
