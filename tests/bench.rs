@@ -70,6 +70,7 @@ fn one_turn_of_the_loop_is_the_evaluation() {
             let rows = Chunk::draw_inputs(*problem, &problem.scenarios()[0], 1, 0, 200);
             let once = outputs(device, *problem, &variant, &rows, None);
             let looped = outputs(device, *problem, &variant, &rows, Some(1));
+            assert_eq!(once.len(), looped.len());
             let same =
                 once.iter().zip(&looped).all(|(a, b)| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan());
             assert!(same, "{}", variant.id());
@@ -139,6 +140,7 @@ fn every_turn_is_taken() {
         let rows = Chunk::draw_inputs(problem, &problem.scenarios()[0], 1, 0, 1000);
         for evaluations in [1, 2, 3, 256, 1000] {
             let looped = outputs(device, problem, &variant, &rows, Some(evaluations));
+            assert_eq!(looped.len(), 1000);
             for (row, result) in rows.chunks_exact(2).zip(looped) {
                 let expected = mixed_on_host([row[0], row[1]], evaluations);
                 assert_eq!(result.to_bits(), expected.to_bits(), "{row:?}, {evaluations} times");

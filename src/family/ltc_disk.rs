@@ -247,9 +247,7 @@ impl Problem for LtcDisk {
             found.and_then(|seen| Some((seen, sensitivity(seen.gradient, &minv, &light, &image, scale)?)));
         let Some((seen, sensitivity)) = found else {
             truth.escalate();
-            let szz = Ball::within(dual[2].value(), exact3::SQUARES * terms.z)
-                / Ball::exact(scale)
-                / Ball::exact(scale);
+            let szz = conjugate_cone::level(dual[2], terms.z) / Ball::exact(scale) / Ball::exact(scale);
             let volume = Ball::rounded(of_minv, 1.0) * Ball::rounded(of_light, 1.0);
             let seen = conjugate(&minv, &light, volume, szz);
             let seen = seen.unwrap_or_else(|| graded(minv, light));
@@ -756,5 +754,19 @@ mod tests {
             }
         });
         assert!(jumps > 100, "{jumps}");
+    }
+
+    /// Heights whose squares f64 does not hold beside those of the rest: S_zz came out as 0, and the light as uncut.
+    #[test]
+    fn low_lights_beside_long_needles_are_cut() {
+        let power = |exponent: i32| libm::ldexp(1.0, exponent) as f32;
+        let u = power(-147);
+        let mut row = [0.0; 18];
+        (row[0], row[4], row[8]) = (1.5 * power(127), power(-149), power(-149));
+        (row[10], row[11], row[12]) = (u, u, power(127));
+        (row[16], row[17]) = (0.5 * u, 1.25 * u);
+        let value = truth_of(&row).values()[0];
+        let exact = graded(exact3::columns(&row), exact3::columns(&row[CENTER..])).value;
+        assert!((exact - 0.222_650).abs() < 1e-6 && (value - exact).abs() <= 1e-15, "{value} for {exact}");
     }
 }

@@ -205,7 +205,7 @@ impl Problem for LtcSphere {
         });
         let Some((light, sensitivity)) = found else {
             truth.escalate();
-            let szz = Ball::within(cone.dual[2].value(), exact3::SQUARES * terms.z);
+            let szz = conjugate_cone::level(cone.dual[2], terms.z);
             let light = conjugate(&minv, center, radius, outside, [by_matrix, by_length], szz);
             let light = light.unwrap_or_else(|| graded(minv, center, radius));
             return truth.scalar(0, light.value, light.bound, light.sensitivity);

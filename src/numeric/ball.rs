@@ -14,7 +14,7 @@ use super::clipped_cone::Number;
 const STEP: isize = 256;
 const UP: f64 = power(STEP);
 const DOWN: f64 = power(-STEP);
-/// Middles are within 2^-128 and 2^128, where products and quotients stay in range.
+/// Middles that are not within the radius are within 2^-128 and 2^128, where products and quotients stay in range.
 const LARGEST: f64 = power(STEP / 2);
 const LEAST: f64 = power(-STEP / 2);
 
@@ -82,7 +82,7 @@ impl Ball {
         if self.steps == 0 { x } else { libm::ldexp(x, (self.steps.clamp(-16, 16) * STEP as i64) as i32) }
     }
 
-    /// The radius over the distance of the middle from 0; infinite where that may be none.
+    /// The radius over the least absolute value there may be; infinite where that is 0.
     pub fn relative(self) -> f64 {
         if self.is_zero() {
             0.0
@@ -98,7 +98,7 @@ impl Ball {
         Ball { radius: 0.0, ..self }
     }
 
-    /// The largest absolute value there may be, exactly.
+    /// The largest absolute value there may be, exactly; of an unbounded one anything.
     pub fn largest(self) -> Self {
         Ball { middle: (self.middle.abs() + self.radius) * OUTWARD, radius: 0.0, steps: self.steps }
             .normalized()
@@ -111,11 +111,15 @@ impl Ball {
 
     /// Anything whose absolute value is one that `size` may have.
     pub fn up_to(size: Self) -> Self {
-        let Ball { middle, steps, .. } = size.largest();
-        Ball { middle: 0.0, radius: middle, steps }
+        let largest = size.largest();
+        if largest.radius == 0.0 {
+            Ball { middle: 0.0, radius: largest.middle, ..largest }
+        } else {
+            Ball::UNKNOWN
+        }
     }
 
-    /// The radius, exactly.
+    /// The radius, exactly; of an unbounded one anything.
     pub fn radius(self) -> Self {
         Ball { middle: self.radius, radius: 0.0, steps: self.steps }.normalized()
     }
@@ -142,8 +146,11 @@ impl Ball {
 
     /// The root of what is not negative but for its error.
     pub fn sqrt(self) -> Self {
-        if self.is_zero() || self.radius == f64::INFINITY {
+        if self.is_zero() {
             return self;
+        }
+        if !(self.radius < f64::INFINITY) {
+            return Ball::UNKNOWN;
         }
         let (up, steps) = if self.steps & 1 == 0 { (1.0, self.steps) } else { (UP, self.steps - 1) };
         let (middle, radius, steps) = (self.middle * up, self.radius * up, steps / 2);
@@ -182,8 +189,8 @@ impl Ball {
         Ball { middle, radius: (1.1 * sine + ELEMENTARY * middle.abs()) * OUTWARD, steps: 0 }.normalized()
     }
 
-    /// The value of a function f of x >= 0 that decreases from f(0) with a slope of at most `steepest`, and by no more than half
-    /// of itself for all of x: at self, if that is known well enough.
+    /// The value of a function f of x >= 0 that decreases from f(0), nowhere steeper than `steepest` nor than f/(2 x): at self, if
+    /// that is known well enough.
     fn falling(self, f: impl Fn(f64) -> f64, steepest: f64) -> Option<Self> {
         let (x, error) = (self.value().max(0.0), self.error());
         if !(x < 1e100 && error <= 0.5 * x.max(1e-3)) {
@@ -236,6 +243,9 @@ impl Ball {
     #[cold]
     fn stepped(self) -> Self {
         let Ball { mut middle, mut radius, mut steps } = self;
+        if !(middle.is_finite() && radius < f64::INFINITY) {
+            return Ball::UNKNOWN;
+        }
         // An operation leaves the range by one step or two.
         for _ in 0..4 {
             let size = middle.abs().max(radius);
@@ -270,9 +280,11 @@ fn shifted(a: Ball, b: Ball) -> ((f64, f64), (f64, f64), i64) {
         if by < 4 {
             let power = power(-STEP * by as isize);
             (ball.middle * power, ball.radius * power)
-        } else {
+        } else if ball.radius <= LARGEST {
             // More than it is, and far below any rounding of the other.
             (0.0, power(-3 * STEP))
+        } else {
+            (0.0, f64::INFINITY)
         }
     };
     if a.steps > b.steps {
@@ -336,7 +348,7 @@ impl Div for Ball {
     #[inline]
     fn div(self, other: Ball) -> Ball {
         let least = other.middle.abs() - other.radius;
-        if !(least > 0.0) {
+        if !(least > 0.0 && least < f64::INFINITY) {
             return Ball::UNKNOWN;
         }
         if self.is_zero() {
@@ -533,6 +545,26 @@ mod tests {
         assert!(Ball::exact(f64::NAN).relative() == f64::INFINITY);
         let root = around_zero.sqrt();
         assert!(root.largest() > Ball::exact(1e-9) && !(root > Ball::ZERO));
+        // Whatever it meets, and however far apart.
+        let unknown = Ball::ONE / around_zero;
+        for other in [Ball::ZERO, Ball::ONE, Ball::ONE << 2000, Ball::ONE >> 2000, around_zero, unknown] {
+            for result in [unknown + other, other - unknown, unknown.hypot(other), (unknown + other).sqrt()] {
+                assert!(
+                    result.relative() == f64::INFINITY && !(result < Ball::ONE << 3000),
+                    "{other:?}: {result:?}"
+                );
+            }
+            let product = unknown * other;
+            assert!(other.is_zero() || product.relative() == f64::INFINITY, "{product:?}");
+            assert!(((Ball::ONE + unknown) * other).sqrt().relative() == f64::INFINITY || other.is_zero());
+        }
+        assert!(
+            Ball::up_to(unknown).relative() == f64::INFINITY && unknown.largest().relative() == f64::INFINITY
+        );
+        assert!(Ball::ONE.widened(unknown.radius()).relative() == f64::INFINITY);
+        // A radius far beyond the middle.
+        let wide = Ball::ONE + Ball::up_to(Ball::ONE << 600);
+        assert!(!((Ball::ONE << 900) + wide > (Ball::ONE << 900) - (Ball::ONE << 590)));
         // Infinitely many steps of exponents hold.
         let huge = (0..40).fold(Ball::exact(3.0), |x, _| x * x);
         assert!((huge / huge - Ball::ONE).largest() < Ball::exact(1e-3), "{huge:?}");

@@ -20,6 +20,7 @@ use glam::{DMat3, DVec3};
 
 use super::ball::Ball;
 use super::clipped_cone::Principal;
+use super::exact3;
 use super::graded_cone::{Irradiance, PERCENT};
 use super::products;
 use super::twofold::Twofold;
@@ -97,7 +98,7 @@ impl Seen {
         (sum.relative() <= PERCENT).then(|| Irradiance { value, bound, sensitivity: sum.value() })
     }
 
-    /// G v for a vector in the principal frame.
+    /// G v, in the world's frame, for a vector in the principal frame.
     pub fn by(&self, [x, y, z]: Vector) -> Vector {
         let [xx, yy, zz, xy, xz, yz] = self.gradient;
         let local = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
@@ -111,14 +112,22 @@ const ACCURACY: f64 = 1.0 / (1u64 << 36) as f64;
 
 const EPS: f64 = f64::EPSILON / 2.0;
 
-/// What sums of exact products keep of their terms, 2^-102.
+/// What parts of products below f64's range may add up to, and much more.
+const UNDERFLOW: f64 = 1e-300;
+
+/// What sums of exact products lose of their terms, 2^-102.
 const PAIRS: f64 = 1.0 / (1u128 << 102) as f64;
 
-/// An ellipse is round for whom the squares of its semi-axes differ by less than this power of 1/2.
+/// An ellipse is round where half the difference of e1 and e3 is below this power of 1/2 of their sum.
 const ROUND: isize = 7;
 
 /// Steps towards l, each of which has the digits of the one before twice.
 const STEPS: usize = 64;
+
+/// S_zz of an exact quadric in twofold arithmetic, whose squares add up to `terms`: what they are off by, and what underflows.
+pub fn level(szz: Twofold, terms: f64) -> Ball {
+    Ball::within(szz.value(), szz.lo.abs() + exact3::SQUARES * terms + UNDERFLOW)
+}
 
 /// These very numbers.
 pub fn vector(v: DVec3) -> Vector {
@@ -300,9 +309,9 @@ impl Local {
                 if half.is_above(Ball::ZERO) { half + length } else { height_0 * pole / (length - half) }
             };
             let next = next.middle();
-            let close = ((next - l).abs() << 50).is_above(l);
+            let moving = ((next - l).abs() << 50).is_above(l);
             l = next;
-            if !close {
+            if !moving {
                 break;
             }
         }
@@ -341,9 +350,10 @@ impl Local {
         let h = tau.hypot(skew);
         let e1 = (both >> 1) + h;
         let e3 = least / e1;
-        // Near a circle any turn of the pair does, to what its squares and product are then off by.
+        // Near a circle any turn of the pair does, to q = what its squares and product are then off by: G has no negative
+        // eigenvalue, so 2 |Gxy q| <= (Gxx + Gyy) |q|, which is what e1 and e3 are widened by; and a little for h, rounded.
         let round = !(h << ROUND).is_above(both);
-        let slack = if round { (tau.radius() + skew.radius()) / e3 } else { Ball::ZERO };
+        let slack = if round { (tau.radius() + skew.radius()) / e3 * Ball::exact(1.125) } else { Ball::ZERO };
         let (e1, e3) = (e1.widened(slack), e3.widened(slack));
         let (tau, skew, h) = if round { (tau.middle(), skew.middle(), h.middle()) } else { (tau, skew, h) };
         let (cos, sin) = if h.is_zero() {
