@@ -8,7 +8,7 @@
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Shl, Shr, Sub};
 
-use super::clipped_cone::Number;
+use super::clipped_cone::{Number, Operand};
 
 /// Exponents are kept in steps of so many.
 const STEP: isize = 256;
@@ -438,6 +438,9 @@ impl Neg for &Ball {
         -*self
     }
 }
+
+impl Operand<Ball> for Ball {}
+impl Operand<Ball> for &Ball {}
 
 impl Number for Ball {
     fn whole(n: u8) -> Self {

@@ -6,7 +6,7 @@
 
 use dashu_float::FBig;
 
-use super::clipped_cone::Number;
+use super::clipped_cone::{Number, Operand};
 
 pub type Big = FBig;
 
@@ -141,6 +141,9 @@ fn series(x: &Big, bits: usize) -> Big {
     }
     rounded(&(Big::from_parts(sum, -(bits as isize))), bits)
 }
+
+impl Operand<Big> for Big {}
+impl Operand<Big> for &Big {}
 
 impl Number for Big {
     fn whole(n: u8) -> Self {

@@ -33,20 +33,6 @@ pub trait Operand<T>:
 {
 }
 
-impl<T, U> Operand<T> for U where
-    U: Sized
-        + Neg<Output = T>
-        + Add<T, Output = T>
-        + Sub<T, Output = T>
-        + Mul<T, Output = T>
-        + Div<T, Output = T>
-        + for<'b> Add<&'b T, Output = T>
-        + for<'b> Sub<&'b T, Output = T>
-        + for<'b> Mul<&'b T, Output = T>
-        + for<'b> Div<&'b T, Output = T>
-{
-}
-
 /// An arithmetic. A comparison that it cannot decide is not true.
 pub trait Number:
     Clone + PartialOrd + Operand<Self> + Shl<isize, Output = Self> + Shr<isize, Output = Self>

@@ -102,8 +102,7 @@ impl Seen {
     pub fn by(&self, [x, y, z]: Vector) -> Vector {
         let [xx, yy, zz, xy, xz, yz] = self.gradient;
         let local = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
-        let [w1, w2, w3] = self.axes;
-        [0, 1, 2].map(|k| w1[k] * local[0] + w2[k] * local[1] + w3[k] * local[2])
+        mapped(&self.axes, &local)
     }
 }
 
@@ -138,9 +137,14 @@ pub fn dot(a: &Vector, b: &Vector) -> Ball {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub fn cross(a: &Vector, b: &Vector) -> Vector {
+fn cross(a: &Vector, b: &Vector) -> Vector {
     let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
     [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+/// The matrix of these columns times v.
+fn mapped(columns: &[Vector; 3], v: &Vector) -> Vector {
+    [0, 1, 2].map(|row| columns[0][row] * v[0] + columns[1][row] * v[1] + columns[2][row] * v[2])
 }
 
 fn scaled(v: &Vector, by: Ball) -> Vector {
@@ -161,6 +165,7 @@ struct Local {
     product: Ball,
     alpha: Ball,
     beta: Ball,
+    kappa: Ball,
 }
 
 impl ConjugateCone {
@@ -192,30 +197,24 @@ impl ConjugateCone {
     pub fn of_sphere(minv: &[DVec3; 3], silhouette: &Silhouette, szz: Ball) -> Self {
         let Silhouette { center, distance, radius, across: [u1, u2] } = silhouette;
         let matrix = DMat3::from_cols(minv[0], minv[1], minv[2]);
-        let cofactors = products::cofactors(&matrix);
         let columns = minv.map(vector);
-        let image =
-            |v: &Vector| [0, 1, 2].map(|row| (0..3).fold(Ball::ZERO, |sum, k| sum + columns[k][row] * v[k]));
-        let product = |v: &Vector| {
-            [0, 1, 2].map(|row| {
-                (0..3).fold(Ball::ZERO, |sum, k| sum + Ball::rounded(cofactors[k][row].0, 1.0) * v[k])
-            })
-        };
+        let cofactors =
+            products::cofactors(&matrix).map(|column| column.map(|(high, _)| Ball::rounded(high, 1.0)));
         let area = *radius * *radius;
-        let images = [image(center), scaled(&image(u1), *radius), scaled(&image(u2), *radius)];
+        let [of_center, of_1, of_2] = [center, u1, u2].map(|v| mapped(&columns, v));
+        let images = [of_center, scaled(&of_1, *radius), scaled(&of_2, *radius)];
         let moment = *distance * *radius;
-        let products = [
-            scaled(&product(center), area / *distance),
-            scaled(&product(u2), moment),
-            scaled(&product(u1), -moment),
-        ];
+        let [of_center, of_1, of_2] = [center, u1, u2].map(|v| mapped(&cofactors, v));
+        let products = [scaled(&of_center, area / *distance), scaled(&of_2, moment), scaled(&of_1, -moment)];
         let volume = Ball::rounded(products::determinant(&matrix), 1.0) * area * *distance;
         ConjugateCone { images, products, volume, szz }
     }
 
     /// The irradiance on a plane with normal +z; nothing where this arithmetic does not do.
     pub fn irradiance(&self) -> Option<Seen> {
-        let local = self.local();
+        let [_, a, b] = &self.images;
+        let first_is_longer = dot(a, a).is_above(dot(b, b));
+        let local = self.local(first_is_longer);
         let l = local.root()?;
         let (cone, axes, [center, longer, other]) = local.principal(l)?;
         let (value, rim) = cone.irradiance(&self.szz, 53)?;
@@ -223,33 +222,23 @@ impl ConjugateCone {
             return None;
         }
         let gradient = cone.gradient(&rim, 53);
-        let (a, b) = if self.first_is_longer() {
-            (longer, other)
-        } else {
-            (other.map(|component| -component), longer)
-        };
+        let (a, b) =
+            if first_is_longer { (longer, other) } else { (other.map(|component| -component), longer) };
         Some(Seen {
             // No more than all of the hemisphere, within the bound.
             value: value.value().min(1.0),
             bound: value.error(),
             images: [center, a, b],
-            axes: axes.map(|axis| {
-                [0, 1, 2].map(|k| (0..3).fold(Ball::ZERO, |sum, i| sum + axis[i] * local.frame[i][k]))
-            }),
+            axes: axes.map(|axis| mapped(&local.frame, &axis)),
             gradient,
         })
     }
 
-    fn first_is_longer(&self) -> bool {
-        let [_, a, b] = &self.images;
-        dot(a, a).is_above(dot(b, b))
-    }
-
-    fn local(&self) -> Local {
+    fn local(&self, first_is_longer: bool) -> Local {
         let [c, a, b] = self.images;
         let [normal, of_a, of_b] = self.products;
         // A quarter turn of the pair leaves the ellipse.
-        let (a, b, of_a, of_b) = if self.first_is_longer() {
+        let (a, b, of_a, of_b) = if first_is_longer {
             (a, b, of_a, of_b)
         } else {
             (b, a.map(|component| -component), of_b, of_a.map(|component| -component))
@@ -267,17 +256,19 @@ impl ConjugateCone {
         let e2 = cross(&e3, &e1);
         let by_across = Ball::ONE / across;
         let e2 = [0, 1, 2].map(|k| e2[k].or((b[k] - shear * e1[k]) * by_across));
+        let turned = [-across * turn_b, along * turn_a + shear * turn_b];
         Local {
             frame: [e1, e2, e3],
             along,
             shear,
             across,
             center: [x, y, z],
-            turned: [-across * turn_b, along * turn_a + shear * turn_b],
+            turned,
             sum: along * along + shear * shear + across * across,
             product: (along * across) * (along * across),
             alpha: x * x + y * y,
             beta: turn_a * turn_a + turn_b * turn_b,
+            kappa: turned[0] * turned[0] + turned[1] * turned[1],
         }
     }
 }
@@ -285,9 +276,8 @@ impl ConjugateCone {
 impl Local {
     /// l: steps of which each has one pole for both, with their value and slope; the last one says how far off it is.
     fn root(&self) -> Option<Ball> {
-        let &Local { along, shear, across, center: [x, y, z], turned, sum, product, alpha, beta, .. } = self;
+        let &Local { along, shear, across, center: [x, y, z], sum, product, alpha, beta, kappa, .. } = self;
         let height = z * z;
-        let kappa = turned[0] * turned[0] + turned[1] * turned[1];
         let on = [along * x, shear * x + across * y];
         let gamma = on[0] * on[0] + on[1] * on[1];
         let [height_0, product_0, alpha_0, beta_0, kappa_0, gamma_0] =
@@ -327,10 +317,9 @@ impl Local {
 
     /// The principal frame: eigenvalues and heights, the axes in this frame, and C, A, B in that one.
     fn principal(&self, l: Ball) -> Option<(Principal<Ball>, [Vector; 3], [Vector; 3])> {
-        let &Local { along, shear, across, center: [x, y, z], turned, sum, product, beta, .. } = self;
+        let &Local { along, shear, across, center: [x, y, z], turned, sum, product, beta, kappa, .. } = self;
         let share = z * z / l;
         let square = (l + sum) * l + product;
-        let kappa = turned[0] * turned[0] + turned[1] * turned[1];
         // e1 + e3 and e1 e3.
         let (both, least) = ((l * beta + kappa) / square + sum * share, product * share);
 
@@ -385,8 +374,8 @@ impl Local {
             [r1 * (cos + of_a * from * g1), r2 * (of_a * from * g2 - sin), root * of_a],
             [r1 * (sin + of_b * from * g1), r2 * (cos + of_b * from * g2), root * of_b],
         ];
-        let height = |axis: Vector| (0..3).fold(Ball::ZERO, |sum, k| sum + axis[k] * self.frame[k][2]);
-        let [up, level, middle] = [w1, w2, w3].map(height);
+        let heights = self.frame.map(|axis| axis[2]);
+        let [up, level, middle] = [w1, w2, w3].map(|axis| dot(&axis, &heights));
         let turned = Ball::up_to(slack * up.hypot(level));
         let heights = [up + turned, level + turned, middle];
         let volume = along * across * z.abs();
