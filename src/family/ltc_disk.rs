@@ -17,7 +17,7 @@ use crate::numeric::big::{self, Big};
 use crate::numeric::clipped_ellipse::{Changes, Cone};
 use crate::numeric::conjugate_cone::{self, ConjugateCone};
 use crate::numeric::exact3;
-use crate::numeric::graded_cone::{self, GradedCone};
+use crate::numeric::graded_cone::{GradedCone, Irradiance, Known};
 use crate::sample::{Draw, ggx, landmarks};
 
 mod jumps;
@@ -247,10 +247,13 @@ impl Problem for LtcDisk {
             found.and_then(|seen| Some((seen, sensitivity(seen.gradient, &minv, &light, &image, scale)?)));
         let Some((seen, sensitivity)) = found else {
             truth.escalate();
+            if image[0].z <= 0.0 && level(&minv, &light) <= 0.0 {
+                return truth.scalar(0, 0.0, 0.0, jumps(&minv, &light, 0.0));
+            }
             let szz = conjugate_cone::level(dual[2], terms.z) / Ball::exact(scale) / Ball::exact(scale);
             let volume = Ball::rounded(of_minv, 1.0) * Ball::rounded(of_light, 1.0);
-            let seen = conjugate(&minv, &light, volume, szz);
-            let seen = seen.unwrap_or_else(|| graded(minv, light));
+            let known = conjugate(&minv, &light, volume, szz).unwrap_or_default();
+            let seen = known.or_else(|known| graded(minv, light, known));
             let jumps = jumps(&minv, &light, seen.value);
             return truth.scalar(0, seen.value, seen.bound, seen.sensitivity + jumps);
         };
@@ -261,13 +264,14 @@ impl Problem for LtcDisk {
     }
 }
 
+/// S_zz, rounded once: the rim's reach over the centre's depth, squared.
+fn level(minv: &[DVec3; 3], light: &[DVec3; 3]) -> f64 {
+    let [c, a, b] = light.map(|v| [minv[0].z * v.x, minv[1].z * v.y, minv[2].z * v.z]);
+    exact3::difference_of_squares(&[a, b], &c)
+}
+
 /// The same in the light's own frame.
-fn conjugate(
-    minv: &[DVec3; 3],
-    light: &[DVec3; 3],
-    volume: Ball,
-    szz: Ball,
-) -> Option<graded_cone::Irradiance> {
+fn conjugate(minv: &[DVec3; 3], light: &[DVec3; 3], volume: Ball, szz: Ball) -> Option<Known> {
     let seen = ConjugateCone::of_ellipse(minv, light, volume, szz).irradiance()?;
     let [of_c, of_a, of_b] = seen.images.map(|image| seen.by(image).map(|component| component << 1));
     let by_image = [of_c.map(|component| -component), of_a, of_b];
@@ -284,15 +288,15 @@ fn conjugate(
             sum = sum + (*component * conjugate_cone::dot(column, by)).abs();
         }
     }
-    seen.with_sensitivity(sum)
+    Some(seen.with_sensitivity(sum))
 }
 
 /// The same in any precision.
-fn graded(minv: [DVec3; 3], light: [DVec3; 3]) -> graded_cone::Irradiance {
+fn graded(minv: [DVec3; 3], light: [DVec3; 3], known: Known) -> Irradiance {
     let vectors = light.map(big::vector);
     let [cc, aa, bb] = vectors.each_ref().map(big::square);
     let own = std::array::from_fn(|i| &aa[i] + &bb[i] - &cc[i]);
-    GradedCone { minv, own, center: light[0] }.irradiance(|by_own| {
+    GradedCone { minv, own, center: light[0] }.irradiance(known, |by_own| {
         vectors.iter().map(|v| big::moved(by_own, v)).fold(Big::ZERO, |sum, moved| sum + moved)
     })
 }
@@ -603,7 +607,13 @@ mod tests {
     fn compare(agreement: &mut Agreement, row: &[f32], truth: &Truth) {
         let (value, sensitivity) = (truth.values()[0], truth.sensitivities()[0]);
         let (minv, light) = (exact3::columns(&row[MINV..]), exact3::columns(&row[CENTER..]));
-        agreement.add(value, sensitivity, jumps(&minv, &light, value), graded(minv, light), row);
+        agreement.add(
+            value,
+            sensitivity,
+            jumps(&minv, &light, value),
+            graded(minv, light, Known::default()),
+            row,
+        );
     }
 
     /// f64 with its tests against any precision, which has formulas of its own for the gradient's frame and sums.
@@ -766,7 +776,90 @@ mod tests {
         (row[10], row[11], row[12]) = (u, u, power(127));
         (row[16], row[17]) = (0.5 * u, 1.25 * u);
         let value = truth_of(&row).values()[0];
-        let exact = graded(exact3::columns(&row), exact3::columns(&row[CENTER..])).value;
+        let exact = graded(exact3::columns(&row), exact3::columns(&row[CENTER..]), Known::default()).value;
         assert!((exact - 0.222_650).abs() < 1e-6 && (value - exact).abs() <= 1e-15, "{value} for {exact}");
+    }
+
+    /// Powers of two and their likes, whose digits end long before those of what is left of them: the closed form with 400 digits
+    /// and its difference quotients.
+    #[test]
+    fn roundings_that_agree_are_no_digits() {
+        let diagonal = |m: [f32; 3], light: [f32; 9]| {
+            let mut row = [0.0; 18];
+            (row[MINV], row[MINV + 4], row[MINV + 8]) = (m[0], m[1], m[2]);
+            row[CENTER..].copy_from_slice(&light);
+            row
+        };
+        let lights = [
+            (
+                diagonal(
+                    [-1.1921009e-7, 1.999993, -1.1754969e-38],
+                    [
+                        -1.1754866e-38,
+                        -0.99999946,
+                        1.0842099e-19,
+                        1.0000054e-7,
+                        1.0842134e-19,
+                        1.9999987,
+                        -1.1921021e-7,
+                        -0.0010000098,
+                        4.656642e-10,
+                    ],
+                ),
+                2.0835497406149954e-91,
+                12.0000080002,
+            ),
+            (
+                diagonal(
+                    [2147471900.0, -9.999983e-5, 9.999925e-21],
+                    [
+                        9.223463e18,
+                        1.1920973e-7,
+                        4.656639e-10,
+                        -0.0009999977,
+                        -9.223369e18,
+                        0.000100000485,
+                        1.000009,
+                        -0.00010000002,
+                        -1.0842064e-19,
+                    ],
+                ),
+                2.730835581422452e-134,
+                12.0,
+            ),
+            (
+                [
+                    8.971348e-37,
+                    -3.0321655e16,
+                    -8.7e-44,
+                    3.2277003e20,
+                    1.9595256e-12,
+                    -1.4016338e23,
+                    -5.8308156e-6,
+                    0.0,
+                    -54424.348,
+                    2.3836583e-31,
+                    -6.528805e20,
+                    -2.1689504e-9,
+                    0.0,
+                    2.7847398e20,
+                    7.354292e-17,
+                    -4.354575e16,
+                    -4.57604e-23,
+                    1.1841997e-14,
+                ],
+                2.4707193899722162e-62,
+                13.3342841733,
+            ),
+        ];
+        for (row, value, share) in lights {
+            let truth = truth_of(&row);
+            let of_oracle = (truth.values()[0], truth.sensitivities()[0]);
+            let big = graded(exact3::columns(&row), exact3::columns(&row[CENTER..]), Known::default());
+            for (found, sensitivity) in [of_oracle, (big.value, big.sensitivity)] {
+                assert!((found / value - 1.0).abs() <= 1e-11, "{row:?}: {found:e} for {value:e}");
+                assert!((sensitivity / value / share - 1.0).abs() <= 0.01, "{row:?}: {sensitivity:e}");
+            }
+        }
     }
 }

@@ -14,7 +14,7 @@ use crate::catalog::{Field, Type};
 use crate::numeric::big;
 use crate::numeric::clipped_ellipse::{Changes, Cone};
 use crate::numeric::exact3;
-use crate::numeric::graded_cone::{self, GradedCone};
+use crate::numeric::graded_cone::{GradedCone, Irradiance, Known};
 use crate::numeric::rotation::Rotation;
 use crate::numeric::spacing::UNIT_ROUNDOFF;
 use crate::numeric::twofold::Twofold;
@@ -197,7 +197,7 @@ impl Problem for LtcEllipsoid {
 }
 
 /// The same in any precision. With N = |q|^2 R the quadric is N D^2 N^T - |q|^4 c c^T, which needs no quotient.
-fn graded(minv: [DVec3; 3], center: DVec3, rotation: &Rotation, radius: DVec3) -> graded_cone::Irradiance {
+fn graded(minv: [DVec3; 3], center: DVec3, rotation: &Rotation, radius: DVec3) -> Irradiance {
     let (columns, norm) = rotation.exact();
     let r2 = big::vector(radius).map(|r| &r * &r);
     let c = big::vector(center).map(|component| component * &norm);
@@ -205,7 +205,7 @@ fn graded(minv: [DVec3; 3], center: DVec3, rotation: &Rotation, radius: DVec3) -
     let solid: big::Symmetric =
         std::array::from_fn(|i| &squares[0][i] * &r2[0] + &squares[1][i] * &r2[1] + &squares[2][i] * &r2[2]);
     let own = std::array::from_fn(|i| &solid[i] - &cc[i]);
-    GradedCone { minv, own, center }.irradiance(|by_own| {
+    GradedCone { minv, own, center }.irradiance(Known::default(), |by_own| {
         let mut sum = big::moved(by_own, &c);
         for (axis, r2) in columns.iter().zip(&r2) {
             sum += big::abs((big::dot(axis, &big::times(by_own, axis)) << 1) * r2);

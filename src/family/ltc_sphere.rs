@@ -15,7 +15,7 @@ use crate::numeric::ball::Ball;
 use crate::numeric::big;
 use crate::numeric::clipped_ellipse::{Changes, Cone};
 use crate::numeric::conjugate_cone::{self, ConjugateCone, Silhouette};
-use crate::numeric::graded_cone::{self, GradedCone};
+use crate::numeric::graded_cone::{GradedCone, Irradiance, Known};
 use crate::numeric::spacing::UNIT_ROUNDOFF;
 use crate::numeric::twofold::Twofold;
 use crate::numeric::{exact, exact3};
@@ -205,9 +205,12 @@ impl Problem for LtcSphere {
         });
         let Some((light, sensitivity)) = found else {
             truth.escalate();
+            if cone.towards.z <= 0.0 && level(&minv, center, radius) <= 0.0 {
+                return truth.scalar(0, 0.0, 0.0, 0.0);
+            }
             let szz = conjugate_cone::level(cone.dual[2], terms.z);
-            let light = conjugate(&minv, center, radius, outside, [by_matrix, by_length], szz);
-            let light = light.unwrap_or_else(|| graded(minv, center, radius));
+            let known = conjugate(&minv, center, radius, outside, [by_matrix, by_length], szz);
+            let light = known.unwrap_or_default().or_else(|known| graded(minv, center, radius, known));
             return truth.scalar(0, light.value, light.bound, light.sensitivity);
         };
         if light.escalated {
@@ -215,6 +218,13 @@ impl Problem for LtcSphere {
         }
         truth.scalar(0, light.value, light.bound, sensitivity);
     }
+}
+
+/// S_zz, rounded once: the sphere's reach over its centre's depth, squared.
+fn level(minv: &[DVec3; 3], center: DVec3, radius: f64) -> f64 {
+    let up = minv.map(|column| column.z);
+    let reach = up.map(|up| [up * radius, 0.0, 0.0]);
+    exact3::difference_of_squares(&reach, &[up[0] * center.x, up[1] * center.y, up[2] * center.z])
 }
 
 /// The same in the silhouette's own frame; `szz` is of inputs in these units.
@@ -225,7 +235,7 @@ fn conjugate(
     outside: f64,
     units: [f64; 2],
     szz: Ball,
-) -> Option<graded_cone::Irradiance> {
+) -> Option<Known> {
     let silhouette = Silhouette::new(center, radius, outside);
     let Silhouette { center: c, distance, radius: of_disk, across: [u1, u2] } = silhouette;
     let square = distance * distance;
@@ -250,16 +260,16 @@ fn conjugate(
         sum = sum + (c[j] * conjugate_cone::dot(&column, &by_center)).abs();
     }
     sum = sum + (r2 * trace).abs();
-    seen.with_sensitivity((sum << 1) * scale)
+    Some(seen.with_sensitivity((sum << 1) * scale))
 }
 
 /// The same in any precision.
-fn graded(minv: [DVec3; 3], center: DVec3, radius: f64) -> graded_cone::Irradiance {
+fn graded(minv: [DVec3; 3], center: DVec3, radius: f64, known: Known) -> Irradiance {
     let (c, r) = (big::vector(center), big::exact(radius));
     let r2 = &r * &r;
     let cc = big::square(&c);
     let own = std::array::from_fn(|i| if i < 3 { &r2 - &cc[i] } else { -&cc[i] });
-    GradedCone { minv, own, center }.irradiance(|by_own| {
+    GradedCone { minv, own, center }.irradiance(known, |by_own| {
         let trace = &by_own[0] + &by_own[1] + &by_own[2];
         big::moved(by_own, &c) + big::abs((trace << 1) * &r2)
     })
@@ -370,7 +380,7 @@ mod tests {
             return;
         }
         let center = exact3::vector(&row[CENTER..]);
-        let exact = graded(exact3::columns(&row[MINV..]), center, f64::from(row[RADIUS]));
+        let exact = graded(exact3::columns(&row[MINV..]), center, f64::from(row[RADIUS]), Known::default());
         agreement.add(value, truth.sensitivities()[0], 0.0, exact, row);
     }
 

@@ -471,6 +471,15 @@ impl Number for Ball {
     fn asinh_over(&self, _: usize) -> Self {
         self.asinh_over_root()
     }
+
+    /// The radius tells.
+    fn negligible(wanted: isize, _: usize) -> isize {
+        wanted
+    }
+
+    fn without(self, share: &Self) -> Self {
+        self.widened(*share)
+    }
 }
 
 #[cfg(test)]

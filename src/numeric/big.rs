@@ -174,6 +174,14 @@ impl Number for Big {
     fn asinh_over(&self, bits: usize) -> Self {
         asinh_over(self, bits)
     }
+
+    fn negligible(_: isize, bits: usize) -> isize {
+        bits as isize
+    }
+
+    fn without(self, _: &Self) -> Self {
+        self
+    }
 }
 
 #[cfg(test)]

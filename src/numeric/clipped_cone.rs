@@ -18,6 +18,12 @@
 
 use std::ops::{Add, Div, Mul, Neg, Shl, Shr, Sub};
 
+/// A cone whose squared tangents are this power of 1/2 has one cosine, to the accuracy asked of values.
+const NARROW: isize = 38;
+
+/// A cone is round where its squared lengths differ by this power of 1/2, to the accuracy asked of gradients.
+const ROUND: isize = 17;
+
 /// What stands on either side of an operator.
 pub trait Operand<T>:
     Sized
@@ -56,6 +62,12 @@ pub trait Number:
 
     /// asinh(z)/z by z^2, to `bits`.
     fn asinh_over(&self, bits: usize) -> Self;
+
+    /// The power of 1/2 that may be left out beside 1 where `wanted` will do: more, if nobody tells what was.
+    fn negligible(wanted: isize, bits: usize) -> isize;
+
+    /// This, of which `share` was left out, or less.
+    fn without(self, share: &Self) -> Self;
 }
 
 /// Eigenvalues e1 >= e3 > 0 > -l of the dual quadric, sqrt(e1 e3 l), and the heights of the axes W1, W2, W3.
@@ -80,15 +92,17 @@ enum Part<T> {
     All,
     /// 2 `sqrt(S_zz)`.
     Cut(T),
-    /// Of a rim that is all but a circle, for which differences by k have no digits: cosines and sines of u0 and of d.
-    CutRound([T; 2], [T; 2]),
+    /// Of a rim that is all but a circle, for which differences by k have no digits: cosines and sines of u0 and of d, and what
+    /// share of it k is.
+    CutRound([T; 2], [T; 2], T),
 }
 
 impl<T: Number> Principal<T>
 where
     for<'a> &'a T: Operand<T>,
 {
-    /// The irradiance as a share of the full hemisphere's; `szz` is S_zz. Nothing where it is not certainly positive.
+    /// The irradiance as a share of the full hemisphere's, which may be all rounding; `szz` is S_zz. Nothing where its sign is not
+    /// known, nor where no angle is.
     pub fn irradiance(&self, szz: &T, bits: usize) -> Option<(T, Rim<T>)> {
         let Principal { e1, e3, l, volume, heights: [z1, z2, z3] } = self;
         let (a, b, c) = (e1.root(), e3.root(), l.root());
@@ -100,7 +114,7 @@ where
         if *szz <= zero {
             let value = &a * &b / &mean * z3;
             let rim = Rim { of_cos: zero.clone(), of_sin: zero.clone(), of_one: tau / mean, part: Part::All };
-            return (value > zero).then_some((value, rim));
+            return Some((value, rim));
         }
         if !(*szz > zero) {
             return None;
@@ -108,7 +122,7 @@ where
         // Squares of heights, and those of the rim.
         let (w1, w2, w3) = (z1 * z1, z2 * z2, z3 * z3);
         let (m1, m2, m3) = (e1 * &w1, e3 * &w2, l * &w3);
-        let m = szz + &m3;
+        let m = (szz + &m3).better(&m1 + &m2);
         let twice = szz.root() << 1;
         // The crossings' angle; as S_zz = m1 + m2 - m3, the ordinates are one, and the one with the smaller terms is better.
         let u = -((l * &big * &small).root() * z3 * &twice);
@@ -131,15 +145,27 @@ where
         let of_one = turn / mean;
         let (of_cos, of_sin) = (z1 * &a * &twice * of_log, z2 * &b * &twice * of_angle);
         let contour = &a * &b * z3 * &of_one - &b * &c * z1 * &of_cos - &a * &c * z2 * &of_sin;
-        let value = (contour + dphi) / tau;
-        let part = if k << (bits / 3) as isize <= big {
-            let (level, swing) = (level.root(), m.root());
-            let half = [-(z3 * &c) / &swing, szz.root() / swing];
-            Part::CutRound([z1 * &a / &level, z2 * &b / level], half)
+        // What is round to a half of the digits is so but for their roundings.
+        let round = k.clone() << T::negligible(ROUND, bits / 2) <= big;
+        let (level, swing) = (level.root(), m.root());
+        let half = [-(z3 * &c) / &swing, szz.root() / &swing];
+        let [cos_d, sin_d] = &half;
+        let value = if e1.clone() << T::negligible(NARROW, bits) <= *l {
+            // A segment of the ellipse in the tangent plane, where no cosine is another than the height's: the integral of
+            // p - cos d over p > cos d in the unit disk.
+            let bow = ((sin_d * sin_d * sin_d) << 1) / T::whole(3);
+            let segment = bow - cos_d * (sin_d.angle(cos_d, &pi) - cos_d * sin_d);
+            (&a * &b * swing * segment / (pi * l * &c)).without(&((e1.clone() << 1) / l))
+        } else {
+            (contour + dphi) / tau
+        };
+        let part = if round {
+            let share = (k << 2) / &big;
+            Part::CutRound([z1 * &a / &level, z2 * &b / level], half, share)
         } else {
             Part::Cut(twice)
         };
-        (value > zero).then_some((value, Rim { of_cos, of_sin, of_one, part }))
+        Some((value, Rim { of_cos, of_sin, of_one, part }))
     }
 
     /// dE/dS in the frame of the axes: xx, yy, zz, xy, xz, yz.
@@ -162,15 +188,16 @@ where
                 let of_small = (y * (&k - &small) - x * &small + twice) / &k + one;
                 (of_big / &big, of_small / &small, (z2 * &ix - z1 * &iy) / (&two_tau * k))
             }
-            Part::CutRound([cos0, sin0], [cos_d, sin_d]) => {
+            Part::CutRound([cos0, sin0], [cos_d, sin_d], share) => {
                 // Towards u0 and across it, where q is the same all around.
                 let swing = (&up * &up + &across * &across).root();
                 let area = &big * &big;
-                let (turn, chord) = (one * &big, (middle * sin_d * cos_d) << 1);
-                let third = (&swing * sin_d * sin_d * sin_d / T::whole(3)) << 2;
-                let along = (((swing * sin_d) << 2) - &third + &turn + &chord) / &area;
+                let known = |term: T| term.without(share);
+                let (turn, chord) = (known(one * &big), known((middle * sin_d * cos_d) << 1));
+                let third = known((&swing * sin_d * sin_d * sin_d / T::whole(3)) << 2);
+                let along = (known((swing * sin_d) << 2) - &third + &turn + &chord) / &area;
                 let aside = (third + turn - chord) / area;
-                let xy = cos0 * sin0 * (&along - &aside) * &half / e1;
+                let xy = cos0 * sin0 * (&along - &aside) * &half / (&a * &b);
                 let (cos2, sin2) = (cos0 * cos0, sin0 * sin0);
                 (&cos2 * &along + &sin2 * &aside, sin2 * along + cos2 * aside, xy)
             }

@@ -21,7 +21,7 @@ use glam::{DMat3, DVec3};
 use super::ball::Ball;
 use super::clipped_cone::Principal;
 use super::exact3;
-use super::graded_cone::{Irradiance, PERCENT};
+use super::graded_cone::{Known, PERCENT};
 use super::products;
 use super::twofold::Twofold;
 
@@ -80,9 +80,7 @@ impl Silhouette {
 #[derive(Clone, Copy, Debug)]
 pub struct Seen {
     /// The irradiance as a share of the full hemisphere's.
-    pub value: f64,
-    /// Absolute error bound.
-    pub bound: f64,
+    value: Ball,
     /// C, A and B in the principal frame.
     pub images: [Vector; 3],
     /// The principal axes.
@@ -92,10 +90,15 @@ pub struct Seen {
 }
 
 impl Seen {
-    /// With the sum of all changes x dE/dx; nothing where that has lost its digits.
-    pub fn with_sensitivity(&self, sum: Ball) -> Option<Irradiance> {
-        let &Seen { value, bound, .. } = self;
-        (sum.relative() <= PERCENT).then(|| Irradiance { value, bound, sensitivity: sum.value() })
+    /// With the sum of all changes |x dE/dx|: what of either has not lost its digits.
+    pub fn with_sensitivity(&self, sum: Ball) -> Known {
+        let value = self.value;
+        Known {
+            // No more than all of the hemisphere, within the bound.
+            irradiance: (value > Ball::ZERO && value.relative() <= ACCURACY)
+                .then(|| (value.value().min(1.0), value.error())),
+            sensitivity: (sum.relative() <= PERCENT).then(|| sum.value()),
+        }
     }
 
     /// G v, in the world's frame, for a vector in the principal frame.
@@ -166,6 +169,8 @@ struct Local {
     alpha: Ball,
     beta: Ball,
     kappa: Ball,
+    /// The centre's, in the world.
+    height: Ball,
 }
 
 impl ConjugateCone {
@@ -218,20 +223,10 @@ impl ConjugateCone {
         let l = local.root()?;
         let (cone, axes, [center, longer, other]) = local.principal(l)?;
         let (value, rim) = cone.irradiance(&self.szz, 53)?;
-        if !(value.relative() <= ACCURACY) {
-            return None;
-        }
         let gradient = cone.gradient(&rim, 53);
         let (a, b) =
             if first_is_longer { (longer, other) } else { (other.map(|component| -component), longer) };
-        Some(Seen {
-            // No more than all of the hemisphere, within the bound.
-            value: value.value().min(1.0),
-            bound: value.error(),
-            images: [center, a, b],
-            axes: axes.map(|axis| mapped(&local.frame, &axis)),
-            gradient,
-        })
+        Some(Seen { value, images: [center, a, b], axes: local.turned_up(&axes, cone.heights), gradient })
     }
 
     fn local(&self, first_is_longer: bool) -> Local {
@@ -269,6 +264,7 @@ impl ConjugateCone {
             alpha: x * x + y * y,
             beta: turn_a * turn_a + turn_b * turn_b,
             kappa: turned[0] * turned[0] + turned[1] * turned[1],
+            height: c[2],
         }
     }
 }
@@ -377,9 +373,25 @@ impl Local {
         let heights = self.frame.map(|axis| axis[2]);
         let [up, level, middle] = [w1, w2, w3].map(|axis| dot(&axis, &heights));
         let turned = Ball::up_to(slack * up.hypot(level));
-        let heights = [up + turned, level + turned, middle];
+        let [up, level] = [up + turned, level + turned];
+        // A low centre says how low the axis through it is.
+        let [along_1, along_2, along_3] = images[0];
+        let heights = [up, level, middle.or((self.height - along_1 * up - along_2 * level) / along_3)];
         let volume = along * across * z.abs();
         certain.then_some((Principal { e1, e3, l, volume, heights }, [w1, w2, w3], images))
+    }
+}
+
+impl Local {
+    /// Principal axes in the world, whose heights are known.
+    fn turned_up(&self, axes: &[Vector; 3], heights: [Ball; 3]) -> [Vector; 3] {
+        let [mut w1, mut w2, mut w3] = axes.map(|axis| mapped(&self.frame, &axis));
+        for (axis, height) in [&mut w1, &mut w2, &mut w3].into_iter().zip(heights) {
+            axis[2] = axis[2].or(height);
+        }
+        let (w1, w2) = (across_axis(w1, &w3), across_axis(w2, &w3));
+        let w2 = across_axis(w2, &w1);
+        [across_axis(w1, &w2), w2, across_axis(across_axis(w3, &w1), &w2)]
     }
 }
 
@@ -408,8 +420,9 @@ mod tests {
             let cone = ConjugateCone::of_ellipse(&minv, &light, height, -(height * height));
             let seen = cone.irradiance().unwrap();
             let expected = 1.0 / (1.0 + s * s);
-            assert!((seen.value - expected).abs() <= seen.bound, "{s}: {seen:?} {expected}");
-            assert!(seen.bound <= 1e-13 * expected, "{s}: {seen:?}");
+            let (value, bound) = seen.with_sensitivity(Ball::ZERO).irradiance.unwrap();
+            assert!((value - expected).abs() <= bound, "{s}: {seen:?} {expected}");
+            assert!(bound <= 1e-13 * expected, "{s}: {seen:?}");
             // E = aa/(aa + cc): dE/da over 2 a for each of two axes, and dE/dc.
             let [of_c, of_a, of_b] = seen.images.map(|image| seen.by(image));
             let slope = s * s * expected * expected;
@@ -424,7 +437,8 @@ mod tests {
     fn what_is_not_seen_is_left_to_others() {
         let minv = [DVec3::X, DVec3::Y, DVec3::Z];
         let seen = |light: [DVec3; 3], volume: f64, szz: f64| {
-            ConjugateCone::of_ellipse(&minv, &light, Ball::exact(volume), Ball::exact(szz)).irradiance()
+            let cone = ConjugateCone::of_ellipse(&minv, &light, Ball::exact(volume), Ball::exact(szz));
+            cone.irradiance().and_then(|seen| seen.with_sensitivity(Ball::ONE).irradiance)
         };
         assert!(seen([DVec3::X, DVec3::X, DVec3::Y], 0.0, 0.0).is_none());
         assert!(seen([-DVec3::Z, DVec3::X, DVec3::Y], -1.0, -1.0).is_none());

@@ -41,6 +41,22 @@ pub fn scale_to_one(vectors: &[Vector]) -> f64 {
     libm::ldexp(1.0, -libm::frexp(largest).1)
 }
 
+/// The sum of squares of sums of three, less another's: rounded once, so that the sign is right. Of products of two f32 values.
+pub fn difference_of_squares(plus: &[[f64; 3]], minus: &[f64; 3]) -> f64 {
+    let mut terms = [0.0; 48];
+    let mut used = 0;
+    for (sums, sign) in plus.iter().map(|sum| (sum, 1.0)).chain([(minus, -1.0)]) {
+        for (i, a) in sums.iter().enumerate() {
+            for (j, b) in sums.iter().enumerate().take(i + 1) {
+                let (high, low) = two_product(*a, if i == j { sign * b } else { 2.0 * sign * b });
+                (terms[used], terms[used + 1]) = (high, low);
+                used += 2;
+            }
+        }
+    }
+    exact::sum(&terms[..used])
+}
+
 /// What sums of [`square`]s of [`transformed`] vectors are off by, of their terms: a few of twofold arithmetic's 2^-102.
 pub const SQUARES: f64 = 1.0 / (1u128 << 96) as f64;
 
@@ -72,6 +88,21 @@ pub fn symmetric(s: &[Twofold; 6]) -> glam::DMat3 {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn differences_of_squares_have_their_sign() {
+        // (1 + 2^-30 + 2^-40)^2 of one, and of the other in two parts and a bit.
+        let (a, b) = (2f64.powi(-30), 2f64.powi(-40));
+        assert_eq!(difference_of_squares(&[[1.0, a, b]], &[b, 1.0, a]), 0.0);
+        assert_eq!(
+            difference_of_squares(&[[1.0, a, b], [2f64.powi(-100), 0.0, 0.0]], &[b, a, 1.0]),
+            2f64.powi(-200)
+        );
+        assert_eq!(
+            difference_of_squares(&[[3.0, 0.0, 0.0], [4.0, 0.0, 0.0]], &[5.0, 2f64.powi(-90), 0.0]),
+            -10.0 * 2f64.powi(-90)
+        );
+    }
 
     proptest! {
         /// Integers are the independent arithmetic: 20-bit entries leave no rounding anywhere.

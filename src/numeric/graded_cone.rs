@@ -2,7 +2,9 @@
 //!
 //! The cone is Minv O Minv^T for the dual quadric O of a light, both exact. Every quantity of the closed form has its own
 //! formula in which nothing cancels but for grading, by which an eigenvalue may be 2^-1000 of another, and slivers above the
-//! horizon. The precision grows until two results agree: what rounding decides differs between them.
+//! horizon. The precision grows until two results agree: what rounding decides differs between them, since what is exact is
+//! first scaled by pi to that precision, and what follows from the frame has more digits than that. Powers of two and their likes
+//! have long runs of zeros, which two precisions would round to the same, and differences of a few roundings are often 0 in both.
 
 use glam::DVec3;
 
@@ -11,8 +13,16 @@ use super::big::{
 };
 use super::clipped_cone::{Principal, Rim};
 
-/// Precisions in bits, until two agree, the first of two words. Eigenvalues of f32's extremes differ by 2^2200.
-const PRECISIONS: [usize; 9] = [96, 128, 256, 512, 1024, 2048, 4096, 8192, 16384];
+/// The first precision in bits, of two words with the one that it must agree with.
+const LEAST: usize = 96;
+/// The last one. Eigenvalues of f32's extremes differ by 2^2200.
+const MOST: usize = 16384;
+/// From one precision to one that it must agree with: what the coarser one has to be good to.
+const STEP: usize = 32;
+/// Digits beyond those of a frame, which show what its roundings do.
+const GUARD: usize = 32;
+/// What roundings take of a sum, beside what its terms lose.
+const SLACK: usize = 10;
 
 /// What must be 0 is 2^-20 of a sensitivity.
 const REMAINDER: isize = 20;
@@ -41,6 +51,32 @@ pub struct Irradiance {
     pub sensitivity: f64,
 }
 
+/// What other arithmetics know of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Known {
+    /// The irradiance with its absolute error bound.
+    pub irradiance: Option<(f64, f64)>,
+    pub sensitivity: Option<f64>,
+}
+
+impl Known {
+    /// All there is to know, by `further` where this is not.
+    pub fn or_else(self, further: impl FnOnce(Self) -> Irradiance) -> Irradiance {
+        match self {
+            Known { irradiance: Some((value, bound)), sensitivity: Some(sensitivity) } => {
+                Irradiance { value, bound, sensitivity }
+            }
+            _ => further(self),
+        }
+    }
+
+    /// What the terms of the irradiance lose in their sum, in bits: they are of its kind, and a sensitivity is about as large as it.
+    fn lost(self) -> usize {
+        let size = self.irradiance.map(|(value, _)| value).or(self.sensitivity).unwrap_or(1.0);
+        (-libm::log2(size.clamp(f64::MIN_POSITIVE, 1.0))) as usize
+    }
+}
+
 /// The quadric after Minv, exactly.
 struct Exact {
     minv: [Vector; 3],
@@ -52,8 +88,8 @@ struct Exact {
 
 impl GradedCone {
     /// The irradiance on a plane with normal +z, and the sum over all inputs x of |x dE/dx|: those of Minv, and by
-    /// `of_light` of dE/dO those of the light.
-    pub fn irradiance(&self, of_light: impl Fn(&Symmetric) -> Big) -> Irradiance {
+    /// `of_light` of dE/dO those of the light. What is `known` is taken over.
+    pub fn irradiance(&self, known: Known, of_light: impl Fn(&Symmetric) -> Big) -> Irradiance {
         let dark = Irradiance { value: 0.0, bound: 0.0, sensitivity: 0.0 };
         if self.is_below() {
             return dark;
@@ -62,23 +98,31 @@ impl GradedCone {
         if exact.minus_det <= Big::ZERO {
             return dark;
         }
+        let sensitivity_of = |attempt: &Attempt| self.sensitivity(&exact, attempt, &of_light);
         let mut before: Option<Attempt> = None;
-        for bits in PRECISIONS {
-            let start = before.as_ref().map(|before| &before.framed.cone.l);
-            let Some(framed) = Framed::new(&exact, bits, start) else { continue };
-            let szz = rounded(&exact.dual[2], bits);
-            let Some((value, rim)) = framed.cone.irradiance(&szz, bits) else { continue };
-            let attempt = Attempt { framed, value, rim, bits };
-            if let Some(before) = &before
-                && agree(&attempt.value, &before.value, bits - before.bits)
-                && let Some(sensitivity) = self.sensitivity(&exact, &attempt, &of_light)
-                && let Some(other) = self.sensitivity(&exact, before, &of_light)
-                && (sensitivity - other).abs() <= PERCENT * sensitivity
-            {
-                let value = nearest(&attempt.value);
-                return Irradiance { value, bound: 0.5 * f64::EPSILON * value, sensitivity };
+        let mut bits = LEAST.max((known.lost() + STEP + SLACK).next_multiple_of(STEP));
+        while bits <= MOST {
+            for bits in [bits, bits + STEP] {
+                let start = before.as_ref().map(|before| &before.framed.cone.l);
+                let Some(framed) = Framed::new(&exact, bits, start) else { continue };
+                let Some((value, rim)) = framed.cone.irradiance(&framed.szz, bits + GUARD) else { continue };
+                if value <= Big::ZERO {
+                    continue;
+                }
+                let attempt = Attempt { framed, value, rim, bits };
+                if let Some(before) = &before
+                    && agree(&attempt.value, &before.value, bits - before.bits)
+                    && let Some(sensitivity) = known.sensitivity.or_else(|| {
+                        let (finer, coarser) = (sensitivity_of(&attempt)?, sensitivity_of(before)?);
+                        ((finer - coarser).abs() <= PERCENT * finer).then_some(finer)
+                    })
+                {
+                    let value = nearest(&attempt.value);
+                    return Irradiance { value, bound: 0.5 * f64::EPSILON * value, sensitivity };
+                }
+                before = Some(attempt);
             }
-            before = Some(attempt);
+            bits *= 2;
         }
         Irradiance {
             value: before.map_or(0.0, |before| nearest(&before.value)),
@@ -117,7 +161,7 @@ impl GradedCone {
         attempt: &Attempt,
         of_light: &impl Fn(&Symmetric) -> Big,
     ) -> Option<f64> {
-        let bits = attempt.bits;
+        let bits = attempt.bits + GUARD;
         let gradient = &attempt.framed.gradient(&attempt.rim, bits);
         let minv = exact.minv.each_ref().map(|column| column.each_ref().map(|entry| rounded(entry, bits)));
         // Columns G m; then G M O, and M^T G M.
@@ -160,21 +204,26 @@ struct Attempt {
     bits: usize,
 }
 
-/// The cone in its principal frame, and that frame.
+/// The cone in its principal frame, and that frame: of a quadric so many times the exact one.
 struct Framed {
+    unit: Big,
     cone: Principal<Big>,
+    szz: Big,
     axes: [Vector; 3],
 }
 
 impl Framed {
     fn new(exact: &Exact, bits: usize, start: Option<&Big>) -> Option<Self> {
         let round = |x: &Big| rounded(x, bits);
-        let dual = exact.dual.each_ref().map(round);
+        let unit = rounded(&Big::pi(bits), 0);
+        let square = &unit * &unit;
+        let dual = exact.dual.each_ref().map(|entry| round(&(entry * &unit)));
         let [xx, yy, zz, xy, xz, yz] = &dual;
-        let [axx, ayy, azz, axy, axz, ayz] = &exact.adjugate;
-        let c2 = round(&(&exact.dual[0] + &exact.dual[1] + &exact.dual[2]));
-        let c1 = round(&(axx + ayy + azz));
-        let c0 = round(&exact.minus_det);
+        let adjugate = exact.adjugate.each_ref().map(|entry| round(&(entry * &square)));
+        let [axx, ayy, azz, axy, axz, ayz] = &adjugate;
+        let c2 = round(&((&exact.dual[0] + &exact.dual[1] + &exact.dual[2]) * &unit));
+        let c1 = round(&((&exact.adjugate[0] + &exact.adjugate[1] + &exact.adjugate[2]) * &square));
+        let c0 = round(&(&exact.minus_det * &square * &unit));
         let l = match start {
             Some(root) => newton(&c2, &c1, &c0, round(root), bits),
             None => positive_root(&c2, &c1, &c0, bits),
@@ -184,8 +233,7 @@ impl Framed {
             return None;
         }
         // The adjugate of S + l, (l + e1)(l + e3) W3 W3^T.
-        let (diagonal, off) =
-            (|a: &Big, s: &Big| round(a) + (&sum - s) * &l, |a: &Big, s: &Big| round(a) - s * &l);
+        let (diagonal, off) = (|a: &Big, s: &Big| a + (&sum - s) * &l, |a: &Big, s: &Big| a - s * &l);
         let (axx, ayy, azz) = (diagonal(axx, xx), diagonal(ayy, yy), diagonal(azz, zz));
         let (axy, axz, ayz) = (off(axy, xy), off(axz, xz), off(ayz, yz));
         let column = if axx >= ayy && axx >= azz {
@@ -234,18 +282,21 @@ impl Framed {
         let w2: Vector = std::array::from_fn(|k| &cos * &b2[k] - &sin * &b1[k]);
         let e3 = &c0 / &l / &e1;
         let e3 = if e3 > e1 { e1.clone() } else { e3 };
-        let axes = [w1, w2, w3];
+        let guarded = |x: &Big| rounded(x, bits + GUARD);
+        let axes = [w1, w2, w3].each_ref().map(|axis| axis.each_ref().map(guarded));
         let heights = axes.each_ref().map(|axis| axis[2].clone());
-        Some(Framed { cone: Principal { e1, e3, l, volume: c0.sqrt(), heights }, axes })
+        let [e1, e3, l, volume] = [e1, e3, l, c0.sqrt()].each_ref().map(guarded);
+        let cone = Principal { e1, e3, l, volume, heights };
+        Some(Framed { unit: guarded(&unit), szz: guarded(&dual[2]), cone, axes })
     }
 
-    /// dE/dS.
+    /// dE/dS of the exact one.
     fn gradient(&self, rim: &Rim<Big>, bits: usize) -> Symmetric {
         let local = self.cone.gradient(rim, bits);
         // From the principal frame to the world's.
         let world: [Vector; 3] = std::array::from_fn(|k| self.axes.each_ref().map(|axis| axis[k].clone()));
         let half = world.each_ref().map(|row| times(&local, row));
-        [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| dot(&half[i], &world[j]))
+        [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| dot(&half[i], &world[j]) * &self.unit)
     }
 }
 
@@ -344,7 +395,8 @@ mod tests {
             let s = libm::ldexp(1.0, exponent);
             let own = [1.0, 1.0, -1.0, 0.0, 0.0, 0.0].map(big::exact);
             let minv = [DVec3::X, DVec3::Y, s * DVec3::Z];
-            let found = GradedCone { minv, own, center: DVec3::Z }.irradiance(|_| Big::ZERO);
+            let found =
+                GradedCone { minv, own, center: DVec3::Z }.irradiance(Known::default(), |_| Big::ZERO);
             let expected = 1.0 / (1.0 + s * s);
             assert!((found.value - expected).abs() <= 2e-16 * expected, "{s}: {found:?} {expected}");
             // dE/d ln x_k of three entries: -E^2 s^2 for z, and half of its opposite for x and y each.
@@ -360,7 +412,9 @@ mod tests {
     fn dark_and_flat_cones_give_nothing() {
         let dark = |own: [f64; 6], center: DVec3| {
             let minv = [DVec3::X, DVec3::Y, DVec3::Z];
-            GradedCone { minv, own: own.map(big::exact), center }.irradiance(|_| Big::ZERO).value
+            GradedCone { minv, own: own.map(big::exact), center }
+                .irradiance(Known::default(), |_| Big::ZERO)
+                .value
         };
         assert_eq!(dark([1.0, 1.0, -1.0, 0.0, 0.0, 0.0], -DVec3::Z), 0.0);
         assert_eq!(dark([1.0, 0.0, -1.0, 0.0, 0.0, 0.0], DVec3::Z), 0.0);
