@@ -96,15 +96,18 @@ impl Problem for LtcPolygon {
     fn oracle(&self, input: &[f32], truth: &mut Truth) {
         let corners = lights(input);
         let alike = core::array::from_fn(|first| corners[first] == corners[(first + 1) % 4]);
-        let mut found = of_pairs(&transformed(input), alike);
+        let pairs = transformed(input);
+        let mut found = of_pairs(&pairs, alike);
         if !found.is_certain() {
             if flat(input) {
                 // All edges lie in one plane with the origin. Outside the outline their angles cancel.
                 found.touched |= found.value.abs() > 1e-9 || found.bound >= 1.0;
                 found.value = 0.0;
                 found.bound = 0.0;
+            } else if (0..4).any(|first| passes(corners[first], corners[(first + 1) % 4])) {
+                found.touched = true;
             } else {
-                found = found.refined(|| {
+                found = found.finer(&pairs, alike).refined(|| {
                     corners.map(|p| big::mapped(&exact3::columns(&input[MINV..]), &big::vector(p)))
                 });
             }
@@ -142,6 +145,11 @@ fn lights(input: &[f32]) -> [DVec3; 4] {
 fn transformed(input: &[f32]) -> [Pairs; 4] {
     let minv = matrix(input);
     lights(input).map(|p| products::transform_pairs(&minv, &[p]))
+}
+
+/// Whether an edge passes through the origin, exactly: products of two f32 are, and Minv takes it there again.
+fn passes(a: DVec3, b: DVec3) -> bool {
+    a.cross(b) == DVec3::ZERO && a.dot(b) <= 0.0
 }
 
 /// Whether the transformed corners lie in one plane with the origin, exactly.

@@ -139,7 +139,7 @@ impl Problem for LtcStrip {
             return;
         }
 
-        let found = of_pairs(&pairs, [false; 4]).refined(|| {
+        let found = of_pairs(&pairs, [false; 4]).finer(&pairs, [false; 4]).refined(|| {
             let columns = [minv.x_axis, minv.y_axis, minv.z_axis];
             corners.map(|(p, offset)| {
                 let ([x, y, z], [u, v, w]) = (big::vector(p), big::vector(offset));

@@ -3,12 +3,13 @@
 //! The corners are exact, and so is all that is a polynomial of them: the normal a x b of an edge, where it crosses the
 //! horizon, (a x b).y and -(a x b).x up to a factor, and with its length both arguments of every angle. What is left to round
 //! is a root, an angle and a quotient for each edge, and their sum, of which little may remain: the precision grows until two
-//! results agree.
+//! results agree. What is exact is first scaled by pi to that precision, which changes nothing but roundings: powers of two and
+//! their likes have long runs of zeros, which two precisions would round to the same.
 
 use super::big::{self, Big, Vector, abs, angle, cross, dot, nearest, rounded};
 
-/// Precisions in bits, each twice the one before, until two agree. Corners that differ by f32's extremes cancel to 2^-1700.
-const PRECISIONS: [usize; 7] = [128, 256, 512, 1024, 2048, 4096, 8192];
+/// Precisions in bits, until two agree. Corners that differ by f32's extremes cancel to 2^-1700.
+const PRECISIONS: [usize; 8] = [96, 128, 256, 512, 1024, 2048, 4096, 8192];
 
 /// An edge's part above the horizon: theta n.z/|n|, theta the angle of (factor |n|, cosine).
 struct Edge {
@@ -69,26 +70,28 @@ pub fn irradiance<const N: usize>(corners: &[Vector; N]) -> Option<f64> {
         }
     }
 
-    let mut before: Option<Big> = None;
+    let mut before: Option<(Big, usize)> = None;
     for bits in PRECISIONS {
         let value = sum(&edges, &ways, bits);
-        if let Some(other) = &before
-            && big::agree(&value, other, bits / 2)
+        if let Some((other, fewer)) = &before
+            && big::agree(&value, other, bits - fewer)
         {
             return Some(nearest(&abs(value)));
         }
-        before = Some(value);
+        before = Some((value, bits));
     }
     None
 }
 
 fn sum(edges: &[Edge], ways: &[Way], bits: usize) -> Big {
     let pi = Big::pi(bits);
-    let round = |x: &Big| rounded(x, bits);
+    let unit = rounded(&pi, 0);
+    let round = |x: &Big| rounded(&(x * &unit), bits);
     let mut sum = Big::ZERO;
     for Edge { height, square, factor, cosine } in edges {
-        let length = round(square).sqrt();
-        let theta = angle(&(round(factor) * &length), &round(cosine), &pi);
+        // In units that make both arguments of the angle as many times as large.
+        let length = round(&(square * &unit)).sqrt();
+        let theta = angle(&(rounded(factor, bits) * &length), &round(cosine), &pi);
         sum += theta * round(height) / length;
     }
     for Way { sine, cosine } in ways {
@@ -128,7 +131,7 @@ mod tests {
                 DVec3::from_array(std::array::from_fn(|_| f64::from(landmarks::any_exponent(draw))))
             });
             let pairs = corners.map(|corner| corner.to_array().map(|component| (component, 0.0)));
-            let found = polygon_irradiance::of_pairs(&pairs, [false; 4]);
+            let found = polygon_irradiance::of_pairs(&pairs, [false; 4]).finer(&pairs, [false; 4]);
             if !found.is_certain() {
                 uncertain += 1;
                 return;

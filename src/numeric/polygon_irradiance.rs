@@ -80,15 +80,10 @@ fn of_exact<T: Real, const N: usize>(corners: &[Vector<T>; N], alike: [bool; N])
     contour.finish()
 }
 
-/// The irradiance of corners of any scale, known as pairs to [`PAIR_ERROR`], which the bound counts: in f64, or in
-/// double-double where that does not do. `alike` says of edges that both their ends are the same: others may round to that.
+/// The irradiance in f64 of corners of any scale, known as pairs to [`PAIR_ERROR`]: the bound counts what f64 leaves of them.
+/// `alike` says of edges that both their ends are the same: others may round to that.
 pub fn of_pairs<const N: usize>(corners: &[Pairs; N], alike: [bool; N]) -> Irradiance<N> {
-    let plain = of_rounded(corners.map(|corner| corner.map(|(high, _)| high)), alike, f64::ROUNDOFF);
-    if plain.is_certain() {
-        return plain;
-    }
-    let fine = corners.map(|corner| corner.map(|(high, low)| DoubleDouble::new(high, low)));
-    Irradiance { escalated: true, ..of_rounded(fine, alike, PAIR_ERROR) }
+    of_rounded(corners.map(|corner| corner.map(|(high, _)| high)), alike, f64::ROUNDOFF)
 }
 
 /// The same, from corners whose components have this relative error.
@@ -119,6 +114,15 @@ impl<const N: usize> Irradiance<N> {
     /// Whether there is a value, and rounding leaves at most `ACCURACY` of it in doubt.
     pub fn is_certain(&self) -> bool {
         !self.touched && self.bound <= ACCURACY * self.value.abs()
+    }
+
+    /// The same where that is certain, and else of these very pairs in double-double.
+    pub fn finer(self, corners: &[Pairs; N], alike: [bool; N]) -> Self {
+        if self.is_certain() {
+            return self;
+        }
+        let corners = corners.map(|corner| corner.map(|(high, low)| DoubleDouble::new(high, low)));
+        Irradiance { escalated: true, ..of_rounded(corners, alike, PAIR_ERROR) }
     }
 
     /// The same where that is certain, and else with the value in as many digits as it takes; the sign is lost.
