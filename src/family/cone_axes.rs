@@ -29,6 +29,7 @@ use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::cubic::{POSITIVE_ROOT_BOUND, positive_root};
 use crate::numeric::exact;
+use crate::numeric::spacing::EPS;
 use crate::numeric::twofold::two_product;
 use crate::sample::{Draw, landmarks};
 
@@ -37,9 +38,6 @@ pub(super) struct ConeAxes;
 const AXIS: usize = 0;
 const TAN_MAJOR: usize = 1;
 const TAN_MINOR: usize = 2;
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 
 impl Problem for ConeAxes {
     fn name(&self) -> &'static str {

@@ -13,12 +13,10 @@ use std::f64::consts::TAU;
 
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
+use crate::numeric::spacing::EPS;
 use crate::sample::{Draw, landmarks};
 
 pub(super) struct DiskSolidAngle;
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 
 impl Problem for DiskSolidAngle {
     fn name(&self) -> &'static str {

@@ -17,12 +17,10 @@ use glam::{DMat3, DVec3};
 
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
+use crate::numeric::spacing::EPS;
 use crate::sample::{Draw, ggx, landmarks};
 
 pub(super) struct EdgeIntegral;
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 
 /// Decades of an angle that goes to zero.
 const ANGLES: &[f64] = &[1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 2.0];

@@ -16,6 +16,7 @@ use glam::{DVec2, DVec3};
 use super::problem::{Landmark, Output, Problem, Quantity, Relation, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::exact;
+use crate::numeric::spacing::EPS;
 use crate::sample::{Draw, landmarks};
 
 pub(super) struct EllipseAxes;
@@ -25,8 +26,6 @@ const MINOR: usize = 1;
 const MAJOR_LEN: usize = 2;
 const MINOR_LEN: usize = 3;
 
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 /// The angle in radians that exact sums are taken for.
 const ACCURACY: f64 = 1.0 / (1u64 << 34) as f64;
 

@@ -15,15 +15,13 @@ use glam::{DMat3, DVec3};
 use super::problem::{Landmark, Output, Problem, Quantity, Relation, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::double_double::{DoubleDouble, Real};
+use crate::numeric::spacing::EPS;
 use crate::sample::{Draw, landmarks};
 
 pub(super) struct EllipseBounds;
 
 const MIN: usize = 0;
 const MAX: usize = 1;
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 
 impl Problem for EllipseBounds {
     fn name(&self) -> &'static str {

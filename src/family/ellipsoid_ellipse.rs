@@ -22,7 +22,7 @@ use super::problem::{Landmark, Output, Problem, Quantity, Relation, Scenario, Tr
 use crate::catalog::{Field, Type};
 use crate::numeric::exact3;
 use crate::numeric::rotation::Rotation;
-use crate::numeric::spacing::UNIT_ROUNDOFF;
+use crate::numeric::spacing::{EPS, UNIT_ROUNDOFF};
 use crate::numeric::twofold::Twofold;
 
 pub(super) struct EllipsoidEllipse;
@@ -31,8 +31,6 @@ const ELLIPSE_CENTER: usize = 0;
 const MAJOR: usize = 1;
 const MINOR: usize = 2;
 
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 /// A difference of the two eigenvalues below this share of their sum counts as none: 2^-60, f32 roundings to the power 2.5.
 const CIRCLE: f64 = 1.0 / (1u64 << 60) as f64;
 /// What twofold arithmetic leaves of the difference, as a share of the sum.

@@ -13,12 +13,10 @@
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::exact::two_sum;
+use crate::numeric::spacing::EPS;
 use crate::sample::{Draw, landmarks};
 
 pub(super) struct LatlongSolidAngle;
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 
 /// The f32 nearest to pi/2, 4e-8 beyond the pole, and to pi.
 const POLE: f64 = std::f32::consts::FRAC_PI_2 as f64;

@@ -16,12 +16,11 @@ use crate::catalog::{Field, Type};
 use crate::numeric::cylinder_silhouette::{Cylinder, Seen};
 use crate::numeric::line_integral::{matrix, vector};
 use crate::numeric::products;
+use crate::numeric::spacing::EPS;
 use crate::sample::{Draw, ggx};
 
 pub(super) struct LtcCylinder;
 
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 /// What the contour in double-double is off by, in units of its terms: a hundred roundings of its least exact function.
 const FINE: f64 = 1.0 / (1u128 << 88) as f64;
 /// The relative error that more precision is taken for: 5.8e-11, well beyond what certifying an f32 takes.

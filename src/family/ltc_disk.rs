@@ -247,12 +247,12 @@ impl Problem for LtcDisk {
             found.and_then(|seen| Some((seen, sensitivity(seen.gradient, &minv, &light, &image, scale)?)));
         let Some((seen, sensitivity)) = found else {
             truth.escalate();
-            if image[0].z <= 0.0 && level(&minv, &light) <= 0.0 {
+            let level = level(&minv, &light);
+            if image[0].z <= 0.0 && level <= 0.0 {
                 return truth.scalar(0, 0.0, 0.0, jumps(&minv, &light, 0.0));
             }
-            let szz = conjugate_cone::level(dual[2], terms.z) / Ball::exact(scale) / Ball::exact(scale);
             let volume = Ball::rounded(of_minv, 1.0) * Ball::rounded(of_light, 1.0);
-            let known = conjugate(&minv, &light, volume, szz).unwrap_or_default();
+            let known = conjugate(&minv, &light, volume, Ball::rounded(level, 1.0)).unwrap_or_default();
             let seen = known.or_else(|known| graded(minv, light, known));
             let jumps = jumps(&minv, &light, seen.value);
             return truth.scalar(0, seen.value, seen.bound, seen.sensitivity + jumps);

@@ -22,12 +22,10 @@ use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::line_integral::{Visible, matrix, vector, visible};
 use crate::numeric::products::{self, cross_terms, norm};
+use crate::numeric::spacing::EPS;
 use crate::sample::{Draw, ggx, landmarks};
 
 pub(super) struct LtcLine;
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 
 /// Columns of the ends, after Minv's nine.
 const P1: usize = 9;

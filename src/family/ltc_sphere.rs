@@ -205,11 +205,11 @@ impl Problem for LtcSphere {
         });
         let Some((light, sensitivity)) = found else {
             truth.escalate();
-            if cone.towards.z <= 0.0 && level(&minv, center, radius) <= 0.0 {
+            let level = level(&minv, center, radius);
+            if cone.towards.z <= 0.0 && level <= 0.0 {
                 return truth.scalar(0, 0.0, 0.0, 0.0);
             }
-            let szz = conjugate_cone::level(cone.dual[2], terms.z);
-            let known = conjugate(&minv, center, radius, outside, [by_matrix, by_length], szz);
+            let known = conjugate(&minv, center, radius, outside, Ball::rounded(level, 1.0));
             let light = known.unwrap_or_default().or_else(|known| graded(minv, center, radius, known));
             return truth.scalar(0, light.value, light.bound, light.sensitivity);
         };
@@ -227,21 +227,13 @@ fn level(minv: &[DVec3; 3], center: DVec3, radius: f64) -> f64 {
     exact3::difference_of_squares(&reach, &[up[0] * center.x, up[1] * center.y, up[2] * center.z])
 }
 
-/// The same in the silhouette's own frame; `szz` is of inputs in these units.
-fn conjugate(
-    minv: &[DVec3; 3],
-    center: DVec3,
-    radius: f64,
-    outside: f64,
-    units: [f64; 2],
-    szz: Ball,
-) -> Option<Known> {
+/// The same in the silhouette's own frame.
+fn conjugate(minv: &[DVec3; 3], center: DVec3, radius: f64, outside: f64, szz: Ball) -> Option<Known> {
     let silhouette = Silhouette::new(center, radius, outside);
     let Silhouette { center: c, distance, radius: of_disk, across: [u1, u2] } = silhouette;
     let square = distance * distance;
     // The disk's dual quadric is so many times the sphere's.
     let scale = square / Ball::rounded(outside, 1.0);
-    let szz = units.iter().fold(szz, |szz, unit| szz / Ball::exact(*unit) / Ball::exact(*unit));
     let seen = ConjugateCone::of_sphere(minv, &silhouette, szz * scale).irradiance()?;
     let [of_center, of_1, of_2] = seen.images;
     let by_center = seen.by(of_center);

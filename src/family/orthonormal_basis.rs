@@ -16,15 +16,13 @@ use glam::DVec3;
 
 use super::problem::{Landmark, Output, Problem, Quantity, Relation, Scenario, Truth};
 use crate::catalog::{Field, Type};
+use crate::numeric::spacing::EPS;
 use crate::sample::{Draw, landmarks};
 
 pub(super) struct OrthonormalBasis;
 
 const B1: usize = 0;
 const B2: usize = 1;
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 
 /// How far n may be from a pole, as 1 - |z|: decades, and the last steps of f32.
 const POLE: &[f64] = &[6.0e-8, 1.2e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0];

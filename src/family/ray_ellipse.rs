@@ -26,6 +26,7 @@ use glam::DVec3;
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::products;
+use crate::numeric::spacing::EPS;
 
 pub(super) struct RayEllipse;
 
@@ -35,9 +36,6 @@ const GAMMA: usize = 2;
 
 /// t of a miss.
 const MISS: f64 = f32::MAX as f64;
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 
 /// Determinants of plain f64 are taken where they exceed this share of the sum of their terms' magnitudes.
 const CANCELLATION: f64 = 1.0 / 64.0;

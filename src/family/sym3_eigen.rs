@@ -268,9 +268,8 @@ fn edge(draw: &mut Draw, row: &mut [f32]) {
 mod tests {
     use super::*;
     use crate::family::CERTIFIED;
+    use crate::numeric::spacing::EPS;
     use crate::sample::Stream;
-
-    const EPS: f64 = f64::EPSILON / 2.0;
 
     fn truth_of(input: &[f32]) -> Truth {
         let mut truth = Truth::new(Sym3Eigen.outputs());

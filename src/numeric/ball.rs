@@ -9,6 +9,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Shl, Shr, Sub};
 
 use super::clipped_cone::{Number, Operand};
+use super::spacing::EPS;
 
 /// Exponents are kept in steps of so many.
 const STEP: isize = 256;
@@ -21,8 +22,6 @@ const LEAST: f64 = power(-STEP / 2);
 /// Of LEAST, as f64 has it.
 const SMALLEST_EXPONENT: u64 = (1023 - STEP / 2) as u64;
 
-/// One rounding of a result, relative to it.
-const ROUNDING: f64 = f64::EPSILON / 2.0;
 /// The radius is computed in a few operations, each of which may be off by a rounding.
 const OUTWARD: f64 = 1.0 + 8.0 * f64::EPSILON;
 /// libm's elementary functions are within an ulp or less of the result; two are allowed.
@@ -54,7 +53,7 @@ impl Ball {
 
     /// What was rounded to `x` at most a few times: within `roundings` of it.
     pub fn rounded(x: f64, roundings: f64) -> Self {
-        Ball::within(x, roundings * ROUNDING * x.abs())
+        Ball::within(x, roundings * EPS * x.abs())
     }
 
     /// All numbers at most `radius` from `middle`.
@@ -156,7 +155,7 @@ impl Ball {
         let (middle, radius, steps) = (self.middle * up, self.radius * up, steps / 2);
         let ball = if middle > radius {
             let root = libm::sqrt(middle);
-            let radius = radius / (root + libm::sqrt(middle - radius)) + ROUNDING * root;
+            let radius = radius / (root + libm::sqrt(middle - radius)) + EPS * root;
             Ball { middle: root, radius: radius * OUTWARD, steps }
         } else {
             let half = 0.5 * libm::sqrt((middle + radius).max(0.0)) * OUTWARD;
@@ -313,7 +312,7 @@ impl Add for Ball {
         if a.1 == 0.0 && b.1 == 0.0 && (a.0 == 0.0 || b.0 == 0.0) {
             return Ball { middle, radius: 0.0, steps };
         }
-        Ball { middle, radius: (a.1 + b.1 + ROUNDING * middle.abs()) * OUTWARD, steps }.normalized()
+        Ball { middle, radius: (a.1 + b.1 + EPS * middle.abs()) * OUTWARD, steps }.normalized()
     }
 }
 
@@ -337,7 +336,7 @@ impl Mul for Ball {
         let middle = self.middle * other.middle;
         let radius = self.middle.abs() * other.radius
             + self.radius * (other.middle.abs() + other.radius)
-            + ROUNDING * middle.abs();
+            + EPS * middle.abs();
         Ball { middle, radius: radius * OUTWARD, steps: self.steps + other.steps }.normalized()
     }
 }
@@ -355,7 +354,7 @@ impl Div for Ball {
             return self;
         }
         let middle = self.middle / other.middle;
-        let radius = (self.radius + middle.abs() * other.radius) / least + ROUNDING * middle.abs();
+        let radius = (self.radius + middle.abs() * other.radius) / least + EPS * middle.abs();
         Ball { middle, radius: radius * OUTWARD, steps: self.steps - other.steps }.normalized()
     }
 }

@@ -28,6 +28,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat3, DVec3};
 
 use super::exact3;
+use super::spacing::EPS;
 use super::twofold::Twofold;
 
 /// The closed form does while its bound is at most this share of the value, 1.5e-11.
@@ -58,9 +59,6 @@ const REMAINDER: f64 = 1.0 / (1u64 << 12) as f64;
 
 /// Below this a disturbance of the rim's heights, of what is above the horizon, acts to first order.
 const SLIGHT: f64 = 1.0 / (1u64 << 10) as f64;
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 
 /// One nappe of an elliptic cone with its apex at the origin.
 #[derive(Clone, Copy, Debug)]

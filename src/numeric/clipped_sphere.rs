@@ -24,10 +24,9 @@
 //! otherwise:      (1 - |c| s) g(p) - (g(p) - g(t)), the second difference by those of its terms
 //! ```
 
-use std::f64::consts::FRAC_1_PI;
+use super::spacing::EPS;
 
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
+use std::f64::consts::FRAC_1_PI;
 
 /// Irradiance and its derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,9 +20,7 @@ use super::big::{self, Big};
 use super::clipped_ellipse::Cone;
 use super::gauss_legendre::{POINTS_16, visit};
 use super::graded_cone;
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
+use super::spacing::EPS;
 
 /// The relative error of [`Cone::solid_angle`]: 6 steps of 4 roundings, and those of l, the sum and the product.
 pub const BOUND: f64 = 64.0 * EPS;

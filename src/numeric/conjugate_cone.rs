@@ -20,9 +20,9 @@ use glam::{DMat3, DVec3};
 
 use super::ball::Ball;
 use super::clipped_cone::Principal;
-use super::exact3;
 use super::graded_cone::{Known, PERCENT};
 use super::products;
+use super::spacing::EPS;
 use super::twofold::Twofold;
 
 /// Three coordinates.
@@ -112,11 +112,6 @@ impl Seen {
 /// The bound that more digits are asked for at, as a share of the value.
 const ACCURACY: f64 = 1.0 / (1u64 << 36) as f64;
 
-const EPS: f64 = f64::EPSILON / 2.0;
-
-/// What parts of products below f64's range may add up to, and much more.
-const UNDERFLOW: f64 = 1e-300;
-
 /// What sums of exact products lose of their terms, 2^-102.
 const PAIRS: f64 = 1.0 / (1u128 << 102) as f64;
 
@@ -125,11 +120,6 @@ const ROUND: isize = 7;
 
 /// Steps towards l, each of which has the digits of the one before twice.
 const STEPS: usize = 64;
-
-/// S_zz of an exact quadric in twofold arithmetic, whose squares add up to `terms`: what they are off by, and what underflows.
-pub fn level(szz: Twofold, terms: f64) -> Ball {
-    Ball::within(szz.value(), szz.lo.abs() + exact3::SQUARES * terms + UNDERFLOW)
-}
 
 /// These very numbers.
 pub fn vector(v: DVec3) -> Vector {

@@ -1,7 +1,6 @@
 //! Roots of cubics whose coefficients change sign once.
 
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
+use super::spacing::EPS;
 
 /// The relative error of [`positive_root`] against the root of the given coefficients, each taken to be rounded once.
 pub const POSITIVE_ROOT_BOUND: f64 = 16.0 * EPS;

@@ -9,6 +9,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::LazyLock;
 
 use super::exact::two_sum;
+use super::spacing::EPS;
 use super::twofold::two_product;
 
 /// What f64 and [`DoubleDouble`] both do.
@@ -40,7 +41,7 @@ pub trait Real:
 }
 
 impl Real for f64 {
-    const ROUNDOFF: f64 = f64::EPSILON / 2.0;
+    const ROUNDOFF: f64 = EPS;
     const TAU: f64 = core::f64::consts::TAU;
 
     fn to_f64(self) -> f64 {

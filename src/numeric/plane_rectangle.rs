@@ -12,8 +12,10 @@
 
 use std::f64::consts::PI;
 
+use super::spacing::EPS;
+
 /// The relative error of [`solid_angle`]: two roundings a coordinate difference, nine of the denominator, one of the angle.
-pub const BOUND: f64 = 16.0 * (f64::EPSILON / 2.0);
+pub const BOUND: f64 = 16.0 * EPS;
 
 /// The solid angle of the rectangle between (`x0`, `y0`) and (`x1`, `y1`) on z = 1, in steradians; the corners in any order.
 /// Coordinates are f32 values, or within 1e-100..1e60 in size: relative error [`BOUND`].

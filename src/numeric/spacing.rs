@@ -1,4 +1,7 @@
-//! Distances between neighbouring values of f32 and binary16, as units of error.
+//! Distances between neighbouring values of f32 and binary16, as units of error; unit roundoffs.
+
+/// f64's unit roundoff, 2^-53: what one rounding leaves of a result at most, relative to it.
+pub const EPS: f64 = f64::EPSILON / 2.0;
 
 /// f32's unit roundoff, 2^-24.
 pub const UNIT_ROUNDOFF: f64 = 1.0 / 16_777_216.0;

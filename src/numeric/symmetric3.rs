@@ -3,10 +3,8 @@
 use glam::DVec3;
 
 use super::exact;
+use super::spacing::EPS;
 use super::twofold::{Twofold, two_product};
-
-/// f64's unit roundoff, 2^-53.
-const EPS: f64 = f64::EPSILON / 2.0;
 
 /// [`Symmetric3::jacobi`]'s error in units of EPS times the norm: sixteen rotations that each round an entry thrice.
 const JACOBI_BOUND: f64 = 48.0 * EPS;
