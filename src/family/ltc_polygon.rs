@@ -5,10 +5,10 @@
 //! quad without area and for one seen edge-on. Where the point lies exactly on the light - in its plane and within it,
 //! on an edge or at a corner - the limit depends on the side, so the inputs do not define a value.
 //!
-//! The corners are sums of three exact products, rounded once. f64 then does unless the edges' contributions cancel:
-//! lights of a millionth of the hemisphere and less that are near or thin, and points very close to an edge or, within
-//! the light's outline, to its plane. Those are summed in double-double. What is left is flat contours through the origin,
-//! which are told by their exact determinants.
+//! The corners are sums of three exact products, rounded once. f64 then does unless the edges' contributions cancel.
+//! Flat contours are told by their exact determinants, and edges through the point by exact cross products. What is left are
+//! lights of a millionth of the hemisphere and less that are near or thin, and points very close to an edge or, within the
+//! light's outline, to its plane: those are summed in double-double, and in as many digits as it takes where that does not do.
 
 use glam::DVec3;
 
@@ -104,7 +104,10 @@ impl Problem for LtcPolygon {
                 found.touched |= found.value.abs() > 1e-9 || found.bound >= 1.0;
                 found.value = 0.0;
                 found.bound = 0.0;
-            } else if (0..4).any(|first| passes(corners[first], corners[(first + 1) % 4])) {
+            } else if (0..4).any(|first| {
+                let last = (first + 1) % 4;
+                (above(&pairs[first]) || above(&pairs[last])) && passes(corners[first], corners[last])
+            }) {
                 found.touched = true;
             } else {
                 found = found.finer(&pairs, alike).refined(|| {
@@ -145,6 +148,11 @@ fn lights(input: &[f32]) -> [DVec3; 4] {
 fn transformed(input: &[f32]) -> [Pairs; 4] {
     let minv = matrix(input);
     lights(input).map(|p| products::transform_pairs(&minv, &[p]))
+}
+
+/// Whether a transformed corner is above the horizon.
+fn above([.., (height, _)]: &Pairs) -> bool {
+    *height > 0.0
 }
 
 /// Whether an edge passes through the origin, exactly: products of two f32 are, and Minv takes it there again.

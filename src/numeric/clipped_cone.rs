@@ -15,14 +15,17 @@
 //!
 //! The last diagonal entry makes tr(G S) = 0: a scale changes nothing. Entries off the diagonal are what turns about the axes do,
 //! which change the heights alone, and to first order nothing but them: 2 pi dE = dW1.z Ix + dW2.z Iy + dW3.z Iz.
+//!
+//! What is small or far has other forms: irradiances of narrow cones are that of a segment in the tangent plane, and gradients
+//! where all of the rim is as long (q is constant: round cones, and every narrow one) those of a circle's arc.
 
 use std::ops::{Add, Div, Mul, Neg, Shl, Shr, Sub};
 
 /// A cone whose squared tangents are this power of 1/2 has one cosine, to the accuracy asked of values.
 const NARROW: isize = 38;
 
-/// A cone is round where its squared lengths differ by this power of 1/2, to the accuracy asked of gradients.
-const ROUND: isize = 17;
+/// A rim is even where its squared lengths differ by this power of 1/2, to the accuracy asked of gradients.
+const EVEN: isize = 17;
 
 /// What stands on either side of an operator.
 pub trait Operand<T>:
@@ -92,9 +95,9 @@ enum Part<T> {
     All,
     /// 2 `sqrt(S_zz)`.
     Cut(T),
-    /// Of a rim that is all but a circle, for which differences by k have no digits: cosines and sines of u0 and of d, and what
+    /// Of an even rim, for which differences by k have no digits: cosines and sines of u0 and of d, and what
     /// share of it k is.
-    CutRound([T; 2], [T; 2], T),
+    CutEven([T; 2], [T; 2], T),
 }
 
 impl<T: Number> Principal<T>
@@ -145,8 +148,8 @@ where
         let of_one = turn / mean;
         let (of_cos, of_sin) = (z1 * &a * &twice * of_log, z2 * &b * &twice * of_angle);
         let contour = &a * &b * z3 * &of_one - &b * &c * z1 * &of_cos - &a * &c * z2 * &of_sin;
-        // What is round to a half of the digits is so but for their roundings.
-        let round = k.clone() << T::negligible(ROUND, bits / 2) <= big;
+        // e1 - e3 is known to no more than half of the digits where the cone is narrow.
+        let even = k.clone() << T::negligible(EVEN, bits / 2) <= big;
         let (level, swing) = (level.root(), m.root());
         let half = [-(z3 * &c) / &swing, szz.root() / &swing];
         let [cos_d, sin_d] = &half;
@@ -159,9 +162,9 @@ where
         } else {
             (contour + dphi) / tau
         };
-        let part = if round {
+        let part = if even {
             let share = (k << 2) / &big;
-            Part::CutRound([z1 * &a / &level, z2 * &b / level], half, share)
+            Part::CutEven([z1 * &a / &level, z2 * &b / level], half, share)
         } else {
             Part::Cut(twice)
         };
@@ -188,7 +191,7 @@ where
                 let of_small = (y * (&k - &small) - x * &small + twice) / &k + one;
                 (of_big / &big, of_small / &small, (z2 * &ix - z1 * &iy) / (&two_tau * k))
             }
-            Part::CutRound([cos0, sin0], [cos_d, sin_d], share) => {
+            Part::CutEven([cos0, sin0], [cos_d, sin_d], share) => {
                 // Towards u0 and across it, where q is the same all around.
                 let swing = (&up * &up + &across * &across).root();
                 let area = &big * &big;

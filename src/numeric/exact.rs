@@ -3,9 +3,16 @@
 /// The sum of `terms`, rounded once: relative error at most 2^-53 however much cancels.
 ///
 /// Shewchuk's growing expansion of non-overlapping partial sums (Discrete Comput. Geom. 18, 1997), with the final
-/// rounding corrected for ties. The terms and their sums must stay finite.
+/// rounding corrected for ties. At most [`MOST`] terms; they and their sums must stay finite.
 pub fn sum(terms: &[f64]) -> f64 {
-    let mut partials = [0.0f64; 24];
+    if terms.len() <= 24 { sum_in(&mut [0.0; 24], terms) } else { sum_in(&mut [0.0; MOST], terms) }
+}
+
+/// The most terms that there may be: there are no more partial sums than terms.
+pub const MOST: usize = 64;
+
+#[inline]
+fn sum_in(partials: &mut [f64], terms: &[f64]) -> f64 {
     let mut used = 0;
     for &term in terms {
         let mut carried = term;
@@ -63,6 +70,14 @@ mod tests {
         assert_eq!(sum(&[1e100, 1.0, -1e100, 1e-100]), 1.0);
         assert_eq!(sum(&[1.0, 2f64.powi(-120), -1.0]), 2f64.powi(-120));
         assert_eq!(sum(&[]), 0.0);
+    }
+
+    /// As many partial sums as terms, which do not overlap.
+    #[test]
+    fn no_exponents_are_too_many() {
+        let powers = (0..32).map(|k| libm::ldexp(1.0, 60 * k - 1000));
+        let terms: Vec<f64> = powers.clone().chain(powers.skip(1).map(|power| -power)).collect();
+        assert_eq!(sum(&terms), libm::ldexp(1.0, -1000));
     }
 
     #[test]

@@ -15,7 +15,7 @@ use super::clipped_cone::{Principal, Rim};
 
 /// The first precision in bits, of two words with the one that it must agree with.
 const LEAST: usize = 96;
-/// The last one. Eigenvalues of f32's extremes differ by 2^2200.
+/// None begins beyond this one. Eigenvalues of f32's extremes differ by 2^2200.
 const MOST: usize = 16384;
 /// From one precision to one that it must agree with: what the coarser one has to be good to.
 const STEP: usize = 32;
