@@ -16,8 +16,8 @@ use crate::numeric::ball::Ball;
 use crate::numeric::big::{self, Big};
 use crate::numeric::clipped_ellipse::{Changes, Cone};
 use crate::numeric::conjugate_cone::{self, ConjugateCone};
+use crate::numeric::exact3;
 use crate::numeric::graded_cone::{GradedCone, Irradiance, Known};
-use crate::numeric::{exact, exact3};
 use crate::sample::{Draw, ggx, landmarks};
 
 mod jumps;
@@ -248,7 +248,7 @@ impl Problem for LtcDisk {
         let Some((seen, sensitivity)) = found else {
             truth.escalate();
             let level = level(&minv, &light);
-            if height(&minv, light[0]) <= 0.0 && level <= 0.0 {
+            if exact3::height(&minv, light[0]) <= 0.0 && level <= 0.0 {
                 return truth.scalar(0, 0.0, 0.0, jumps(&minv, &light, 0.0));
             }
             let volume = Ball::rounded(of_minv, 1.0) * Ball::rounded(of_light, 1.0);
@@ -262,11 +262,6 @@ impl Problem for LtcDisk {
         }
         truth.scalar(0, seen.value, seen.bound, sensitivity + jumps(&minv, &light, seen.value));
     }
-}
-
-/// The centre's height after Minv, rounded once.
-fn height(minv: &[DVec3; 3], center: DVec3) -> f64 {
-    exact::sum(&[minv[0].z * center.x, minv[1].z * center.y, minv[2].z * center.z])
 }
 
 /// S_zz, rounded once: the square of the rim's reach less that of the centre's height.
@@ -540,15 +535,17 @@ mod tests {
         assert!((truth_of(&side).values()[0] - expected).abs() < 1e-15);
     }
 
+    /// A light under a diagonal Minv.
+    fn diagonal(m: [f32; 3], light: [f32; 9]) -> [f32; 18] {
+        let mut row = [0.0; 18];
+        (row[MINV], row[MINV + 4], row[MINV + 8]) = (m[0], m[1], m[2]);
+        row[CENTER..].copy_from_slice(&light);
+        row
+    }
+
     /// Needles whose cone is 2^100 times as long as wide: quadrature with 60 digits, tools/truths/ltc_disk.py.
     #[test]
     fn needles_beyond_the_digits_of_the_quadric() {
-        let diagonal = |m: [f32; 3], light: [f32; 9]| {
-            let mut row = [0.0; 18];
-            (row[MINV], row[MINV + 4], row[MINV + 8]) = (m[0], m[1], m[2]);
-            row[CENTER..].copy_from_slice(&light);
-            row
-        };
         let lights = [
             (
                 diagonal(
@@ -789,12 +786,6 @@ mod tests {
     /// and its difference quotients.
     #[test]
     fn roundings_that_agree_are_no_digits() {
-        let diagonal = |m: [f32; 3], light: [f32; 9]| {
-            let mut row = [0.0; 18];
-            (row[MINV], row[MINV + 4], row[MINV + 8]) = (m[0], m[1], m[2]);
-            row[CENTER..].copy_from_slice(&light);
-            row
-        };
         let lights = [
             (
                 diagonal(

@@ -104,10 +104,7 @@ impl Problem for LtcPolygon {
                 found.touched |= found.value.abs() > 1e-9 || found.bound >= 1.0;
                 found.value = 0.0;
                 found.bound = 0.0;
-            } else if (0..4).any(|first| {
-                let last = (first + 1) % 4;
-                (above(&pairs[first]) || above(&pairs[last])) && passes(corners[first], corners[last])
-            }) {
+            } else if passes(&corners, &pairs) {
                 found.touched = true;
             } else {
                 found = found.finer(&pairs, alike).refined(|| {
@@ -150,14 +147,17 @@ fn transformed(input: &[f32]) -> [Pairs; 4] {
     lights(input).map(|p| products::transform_pairs(&minv, &[p]))
 }
 
-/// Whether a transformed corner is above the horizon.
-fn above([.., (height, _)]: &Pairs) -> bool {
-    *height > 0.0
-}
-
-/// Whether an edge passes through the origin, exactly: products of two f32 are, and Minv takes it there again.
-fn passes(a: DVec3, b: DVec3) -> bool {
-    a.cross(b) == DVec3::ZERO && a.dot(b) <= 0.0
+/// Whether an edge with an end above the horizon passes through the origin, exactly: products of two f32 are, and Minv takes it
+/// there again.
+fn passes(corners: &[DVec3; 4], transformed: &[Pairs; 4]) -> bool {
+    let is_above = |[.., (height, _)]: &Pairs| *height > 0.0;
+    (0..4).any(|first| {
+        let last = (first + 1) % 4;
+        let (a, b) = (corners[first], corners[last]);
+        (is_above(&transformed[first]) || is_above(&transformed[last]))
+            && a.cross(b) == DVec3::ZERO
+            && a.dot(b) <= 0.0
+    })
 }
 
 /// Whether the transformed corners lie in one plane with the origin, exactly.

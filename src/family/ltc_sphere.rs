@@ -207,7 +207,7 @@ impl Problem for LtcSphere {
         let Some((light, sensitivity)) = found else {
             truth.escalate();
             let level = level(&minv, center, radius);
-            if height(&minv, center) <= 0.0 && level <= 0.0 {
+            if exact3::height(&minv, center) <= 0.0 && level <= 0.0 {
                 return truth.scalar(0, 0.0, 0.0, 0.0);
             }
             let known = conjugate(&minv, center, radius, outside, Ball::rounded(level, 1.0));
@@ -219,11 +219,6 @@ impl Problem for LtcSphere {
         }
         truth.scalar(0, light.value, light.bound, sensitivity);
     }
-}
-
-/// The centre's height after Minv, rounded once.
-fn height(minv: &[DVec3; 3], center: DVec3) -> f64 {
-    exact::sum(&[minv[0].z * center.x, minv[1].z * center.y, minv[2].z * center.z])
 }
 
 /// S_zz, rounded once: the square of the sphere's reach less that of its centre's height.

@@ -143,30 +143,34 @@ where
         let of_log = ((szz * &big * &k * &m1 / &square) << 2).asinh_over(bits) / square.root();
         let x = l * (&m + &k * &w3) + e3 * (&m - &k * &w2);
         let of_angle = ((szz * &small * &k * &m2) << 2).angle_over(&x, &pi);
-        let plane = &m3 * (e1 + e3) + &m1 * (l - e3) + &m2 * (l - e1);
-        let dphi = (volume * &twice).angle(&plane, &pi);
         let of_one = turn / mean;
         let (of_cos, of_sin) = (z1 * &a * &twice * of_log, z2 * &b * &twice * of_angle);
-        let contour = &a * &b * z3 * &of_one - &b * &c * z1 * &of_cos - &a * &c * z2 * &of_sin;
+        let whole = || {
+            let plane = &m3 * (e1 + e3) + &m1 * (l - e3) + &m2 * (l - e1);
+            let dphi = (volume * &twice).angle(&plane, &pi);
+            let contour = &a * &b * z3 * &of_one - &b * &c * z1 * &of_cos - &a * &c * z2 * &of_sin;
+            (contour + dphi) / &tau
+        };
         // e1 - e3 is known to no more than half of the digits where the cone is narrow.
         let even = k.clone() << T::negligible(EVEN, bits / 2) <= big;
-        let (level, swing) = (level.root(), m.root());
-        let half = [-(z3 * &c) / &swing, szz.root() / &swing];
-        let [cos_d, sin_d] = &half;
-        let value = if e1.clone() << T::negligible(NARROW, bits) <= *l {
-            // A segment of the ellipse in the tangent plane, where no cosine is another than the height's: the integral of
-            // p - cos d over p > cos d in the unit disk.
-            let bow = ((sin_d * sin_d * sin_d) << 1) / T::whole(3);
-            let segment = bow - cos_d * (sin_d.angle(cos_d, &pi) - cos_d * sin_d);
-            (&a * &b * swing * segment / (pi * l * &c)).without(&((e1.clone() << 1) / l))
-        } else {
-            (contour + dphi) / tau
-        };
-        let part = if even {
+        let (value, part) = if even {
+            let (level, swing) = (level.root(), m.root());
+            let half = [-(z3 * &c) / &swing, szz.root() / &swing];
+            let [cos_d, sin_d] = &half;
+            // Narrow cones are even, too.
+            let value = if e1.clone() << T::negligible(NARROW, bits) <= *l {
+                // A segment of the ellipse in the tangent plane, where no cosine is another than the height's: the integral of
+                // p - cos d over p > cos d in the unit disk.
+                let bow = ((sin_d * sin_d * sin_d) << 1) / T::whole(3);
+                let segment = bow - cos_d * (sin_d.angle(cos_d, &pi) - cos_d * sin_d);
+                (&a * &b * swing * segment / (&pi * l * &c)).without(&((e1.clone() << 1) / l))
+            } else {
+                whole()
+            };
             let share = (k << 2) / &big;
-            Part::CutEven([z1 * &a / &level, z2 * &b / level], half, share)
+            (value, Part::CutEven([z1 * &a / &level, z2 * &b / level], half, share))
         } else {
-            Part::Cut(twice)
+            (whole(), Part::Cut(twice.clone()))
         };
         Some((value, Rim { of_cos, of_sin, of_one, part }))
     }

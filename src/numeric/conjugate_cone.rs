@@ -370,9 +370,7 @@ impl Local {
         let volume = along * across * z.abs();
         certain.then_some((Principal { e1, e3, l, volume, heights }, [w1, w2, w3], images))
     }
-}
 
-impl Local {
     /// Principal axes in the world, whose heights are known.
     fn turned_up(&self, axes: &[Vector; 3], heights: [Ball; 3]) -> [Vector; 3] {
         let [mut w1, mut w2, mut w3] = axes.map(|axis| mapped(&self.frame, &axis));

@@ -3,13 +3,14 @@
 /// The sum of `terms`, rounded once: relative error at most 2^-53 however much cancels.
 ///
 /// Shewchuk's growing expansion of non-overlapping partial sums (Discrete Comput. Geom. 18, 1997), with the final
-/// rounding corrected for ties. At most [`MOST`] terms; they and their sums must stay finite.
+/// rounding corrected for ties. At most 64 terms; they and their sums must stay finite.
 pub fn sum(terms: &[f64]) -> f64 {
+    // Most sums are short.
     if terms.len() <= 24 { sum_in(&mut [0.0; 24], terms) } else { sum_in(&mut [0.0; MOST], terms) }
 }
 
 /// The most terms that there may be: there are no more partial sums than terms.
-pub const MOST: usize = 64;
+const MOST: usize = 64;
 
 #[inline]
 fn sum_in(partials: &mut [f64], terms: &[f64]) -> f64 {

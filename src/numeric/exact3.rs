@@ -41,6 +41,11 @@ pub fn scale_to_one(vectors: &[Vector]) -> f64 {
     libm::ldexp(1.0, -libm::frexp(largest).1)
 }
 
+/// z of M v for f32 values, rounded once, so that the sign is right.
+pub fn height(m: &[DVec3; 3], v: DVec3) -> f64 {
+    exact::sum(&[m[0].z * v.x, m[1].z * v.y, m[2].z * v.z])
+}
+
 /// The sum of squares of sums of three, less another's: rounded once, so that the sign is right. Of products of two f32 values.
 pub fn difference_of_squares(plus: &[[f64; 3]], minus: &[f64; 3]) -> f64 {
     let mut terms = [0.0; 48];
