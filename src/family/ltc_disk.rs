@@ -12,12 +12,13 @@ use glam::{DMat3, DVec3};
 
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
-use crate::numeric::ball::Ball;
+use crate::numeric::ball::{Ball, Middle};
 use crate::numeric::big::{self, Big};
 use crate::numeric::clipped_ellipse::{Changes, Cone};
-use crate::numeric::conjugate_cone::{self, ConjugateCone};
-use crate::numeric::exact3;
+use crate::numeric::conjugate_cone::{self, ConjugateCone, Seen};
+use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::graded_cone::{GradedCone, Irradiance, Known};
+use crate::numeric::{exact, exact3};
 use crate::sample::{Draw, ggx, landmarks};
 
 mod jumps;
@@ -247,12 +248,14 @@ impl Problem for LtcDisk {
             found.and_then(|seen| Some((seen, sensitivity(seen.gradient, &minv, &light, &image, scale)?)));
         let Some((seen, sensitivity)) = found else {
             truth.escalate();
-            let level = level(&minv, &light);
-            if exact3::height(&minv, light[0]) <= 0.0 && level <= 0.0 {
+            if exact3::height(&minv, light[0]) <= 0.0
+                && exact::sum(level(&minv, &light).as_flattened()) <= 0.0
+            {
                 return truth.scalar(0, 0.0, 0.0, jumps(&minv, &light, 0.0));
             }
-            let volume = Ball::rounded(of_minv, 1.0) * Ball::rounded(of_light, 1.0);
-            let known = conjugate(&minv, &light, volume, Ball::rounded(level, 1.0)).unwrap_or_default();
+            let known = Known::default()
+                .or(|_| conjugate::<f64>(&minv, &light))
+                .or(|_| conjugate::<DoubleDouble>(&minv, &light));
             let seen = known.or_else(|known| graded(minv, light, known));
             let jumps = jumps(&minv, &light, seen.value);
             return truth.scalar(0, seen.value, seen.bound, seen.sensitivity + jumps);
@@ -264,15 +267,21 @@ impl Problem for LtcDisk {
     }
 }
 
-/// S_zz, rounded once: the square of the rim's reach less that of the centre's height.
-fn level(minv: &[DVec3; 3], light: &[DVec3; 3]) -> f64 {
+/// What S_zz adds up from: the square of the rim's reach less that of the centre's height.
+fn level(minv: &[DVec3; 3], light: &[DVec3; 3]) -> [[f64; 12]; 3] {
     let [c, a, b] = light.map(|v| [minv[0].z * v.x, minv[1].z * v.y, minv[2].z * v.z]);
-    exact3::difference_of_squares(&[a, b], &c)
+    [(a, 1.0), (b, 1.0), (c, -1.0)].map(|(products, sign)| exact3::square_of_sum(&products, sign))
 }
 
 /// The same in the light's own frame.
-fn conjugate(minv: &[DVec3; 3], light: &[DVec3; 3], volume: Ball, szz: Ball) -> Option<Known> {
-    let seen = ConjugateCone::of_ellipse(minv, light, volume, szz).irradiance()?;
+fn conjugate<M: Middle>(minv: &[DVec3; 3], light: &[DVec3; 3]) -> Option<Known> {
+    let szz = Ball::<M>::sum(level(minv, light).as_flattened(), 0.0);
+    let seen = ConjugateCone::of_ellipse(minv, light, szz).irradiance()?;
+    Some(known(&seen, minv, light).or(|known| Some(self::known(&seen.by_lines(known)?, minv, light))))
+}
+
+/// What that tells of the irradiance and of its changes.
+fn known<M: Middle>(seen: &Seen<M>, minv: &[DVec3; 3], light: &[DVec3; 3]) -> Known {
     let [of_c, of_a, of_b] = seen.images.map(|image| seen.by(image).map(|component| component << 1));
     let by_image = [of_c.map(|component| -component), of_a, of_b];
     let [minv, light] = [minv, light].map(|vectors| vectors.map(conjugate_cone::vector));
@@ -288,7 +297,7 @@ fn conjugate(minv: &[DVec3; 3], light: &[DVec3; 3], volume: Ball, szz: Ball) -> 
             sum = sum + (*component * conjugate_cone::dot(column, by)).abs();
         }
     }
-    Some(seen.with_sensitivity(sum))
+    seen.with_sensitivity(sum)
 }
 
 /// The same in any precision.

@@ -11,10 +11,11 @@ use glam::{DMat3, DVec3};
 
 use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
-use crate::numeric::ball::Ball;
+use crate::numeric::ball::{Ball, Middle};
 use crate::numeric::big;
 use crate::numeric::clipped_ellipse::{Changes, Cone};
-use crate::numeric::conjugate_cone::{self, ConjugateCone, Silhouette};
+use crate::numeric::conjugate_cone::{self, ConjugateCone, Seen, Silhouette};
+use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::graded_cone::{GradedCone, Irradiance, Known};
 use crate::numeric::spacing::UNIT_ROUNDOFF;
 use crate::numeric::twofold::Twofold;
@@ -162,9 +163,7 @@ impl Problem for LtcSphere {
         let minv = exact3::columns(&input[MINV..]);
         let center = exact3::vector(&input[CENTER..]);
         let radius = f64::from(input[RADIUS]);
-        let squares = center * center;
-        // d^2 - r^2, rounded once.
-        let outside = exact::sum(&[squares.x, squares.y, squares.z, -radius * radius]);
+        let outside = exact::sum(&outside(center, radius));
         if radius == 0.0 {
             return truth.scalar(0, 0.0, 0.0, 0.0);
         }
@@ -206,12 +205,15 @@ impl Problem for LtcSphere {
         });
         let Some((light, sensitivity)) = found else {
             truth.escalate();
-            let level = level(&minv, center, radius);
-            if exact3::height(&minv, center) <= 0.0 && level <= 0.0 {
+            if exact3::height(&minv, center) <= 0.0
+                && exact::sum(level(&minv, center, radius).as_flattened()) <= 0.0
+            {
                 return truth.scalar(0, 0.0, 0.0, 0.0);
             }
-            let known = conjugate(&minv, center, radius, outside, Ball::rounded(level, 1.0));
-            let light = known.unwrap_or_default().or_else(|known| graded(minv, center, radius, known));
+            let known = Known::default()
+                .or(|_| conjugate::<f64>(&minv, center, radius))
+                .or(|_| conjugate::<DoubleDouble>(&minv, center, radius));
+            let light = known.or_else(|known| graded(minv, center, radius, known));
             return truth.scalar(0, light.value, light.bound, light.sensitivity);
         };
         if light.escalated {
@@ -221,21 +223,43 @@ impl Problem for LtcSphere {
     }
 }
 
-/// S_zz, rounded once: the square of the sphere's reach less that of its centre's height.
-fn level(minv: &[DVec3; 3], center: DVec3, radius: f64) -> f64 {
+/// What the square of the centre's distance less that of the radius adds up from.
+fn outside(center: DVec3, radius: f64) -> [f64; 4] {
+    let squares = center * center;
+    [squares.x, squares.y, squares.z, -radius * radius]
+}
+
+/// What S_zz adds up from: the square of the sphere's reach less that of its centre's height.
+fn level(minv: &[DVec3; 3], center: DVec3, radius: f64) -> [[f64; 12]; 4] {
     let up = minv.map(|column| column.z);
-    let reach = up.map(|up| [up * radius, 0.0, 0.0]);
-    exact3::difference_of_squares(&reach, &[up[0] * center.x, up[1] * center.y, up[2] * center.z])
+    let [x, y, z] = up.map(|up| exact3::square_of_sum(&[up * radius, 0.0, 0.0], 1.0));
+    let height = [up[0] * center.x, up[1] * center.y, up[2] * center.z];
+    [x, y, z, exact3::square_of_sum(&height, -1.0)]
 }
 
 /// The same in the silhouette's own frame.
-fn conjugate(minv: &[DVec3; 3], center: DVec3, radius: f64, outside: f64, szz: Ball) -> Option<Known> {
+fn conjugate<M: Middle>(minv: &[DVec3; 3], center: DVec3, radius: f64) -> Option<Known> {
+    let outside = Ball::<M>::sum(&outside(center, radius), 0.0);
     let silhouette = Silhouette::new(center, radius, outside);
-    let Silhouette { center: c, distance, radius: of_disk, across: [u1, u2] } = silhouette;
-    let square = distance * distance;
+    let square = silhouette.distance * silhouette.distance;
     // The disk's dual quadric is so many times the sphere's.
-    let scale = square / Ball::rounded(outside, 1.0);
-    let seen = ConjugateCone::of_sphere(minv, &silhouette, szz * scale).irradiance()?;
+    let scale = square / outside;
+    let szz = Ball::sum(level(minv, center, radius).as_flattened(), 0.0) * scale;
+    let seen = ConjugateCone::of_sphere(minv, &silhouette, szz).irradiance()?;
+    let known = |seen: &Seen<M>| known(seen, &silhouette, scale, minv, radius);
+    Some(known(&seen).or(|found| Some(known(&seen.by_lines(found)?))))
+}
+
+/// What that tells of the irradiance and of its changes; `scale` is the disk's dual quadric over the sphere's.
+fn known<M: Middle>(
+    seen: &Seen<M>,
+    silhouette: &Silhouette<M>,
+    scale: Ball<M>,
+    minv: &[DVec3; 3],
+    radius: f64,
+) -> Known {
+    let Silhouette { center: c, distance, radius: of_disk, across: [u1, u2] } = *silhouette;
+    let square = distance * distance;
     let [of_center, of_1, of_2] = seen.images;
     let by_center = seen.by(of_center);
     let (by_square, by_radius) = (Ball::ONE / square, Ball::ONE / of_disk);
@@ -253,7 +277,7 @@ fn conjugate(minv: &[DVec3; 3], center: DVec3, radius: f64, outside: f64, szz: B
         sum = sum + (c[j] * conjugate_cone::dot(&column, &by_center)).abs();
     }
     sum = sum + (r2 * trace).abs();
-    Some(seen.with_sensitivity((sum << 1) * scale))
+    seen.with_sensitivity((sum << 1) * scale)
 }
 
 /// The same in any precision.

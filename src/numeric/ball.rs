@@ -1,14 +1,19 @@
-//! Numbers that know how far off they may be: f64 with a radius, and exponents that no light leaves.
+//! Numbers that know how far off they may be: f64 or twice its digits, with a radius.
 //!
 //! A ball stands for every number within its radius of its middle, and every operation's ball for all results of numbers
 //! of its operands' balls: the roundings of the operation itself are in the radius. So a long computation needs no error
 //! analysis; it is good where its last ball is small, and a comparison that its balls cannot decide is neither true nor
 //! false (Johansson, "Arb: efficient arbitrary-precision midpoint-radius interval arithmetic", 2017).
+//!
+//! f64's keep f64's range, which is what makes them fast: what leaves it is unknown. Those of twice its digits have exponents that
+//! no light leaves.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Shl, Shr, Sub};
 
 use super::clipped_cone::{Number, Operand};
+use super::double_double::{DoubleDouble, Real};
+use super::exact;
 use super::spacing::EPS;
 
 /// Exponents are kept in steps of so many.
@@ -24,27 +29,92 @@ const SMALLEST_EXPONENT: u64 = (1023 - STEP / 2) as u64;
 
 /// The radius is computed in a few operations, each of which may be off by a rounding.
 const OUTWARD: f64 = 1.0 + 8.0 * f64::EPSILON;
-/// libm's elementary functions are within an ulp or less of the result; two are allowed.
-const ELEMENTARY: f64 = 2.0 * f64::EPSILON;
+/// More than a product or quotient loses below f64's range.
+const TINY: f64 = f64::MIN_POSITIVE;
+/// Below this square 1 is asinh(z)/z and atan(z)/z to all digits.
+const SERIES: f64 = 1e-32;
 
 /// 2^exponent of a normal f64.
 const fn power(exponent: isize) -> f64 {
     f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
+/// What a ball's middle is.
+pub trait Middle: Real + std::fmt::Debug {
+    const ZERO: Self;
+    const ONE: Self;
+
+    /// Whether exponents are unlimited, in steps.
+    const IS_WIDE: bool;
+    /// Angles and logarithms are off by so many roundings at most.
+    const ELEMENTARY: f64;
+
+    /// The nearest of these to a sum whose second part is within half a spacing of the first, and what of it is left.
+    fn of(pair: (f64, f64)) -> (Self, f64);
+
+    /// The sum of at most 63 terms, rounded once.
+    fn sum(terms: &[f64]) -> Self;
+
+    /// Times a power of two.
+    fn scaled(self, power: f64) -> Self;
+}
+
+impl Middle for f64 {
+    const ZERO: f64 = 0.0;
+    const ONE: f64 = 1.0;
+    const IS_WIDE: bool = false;
+    /// An ulp or less, and as many for other machines.
+    const ELEMENTARY: f64 = 4.0;
+
+    #[inline(always)]
+    fn of((high, low): (f64, f64)) -> (f64, f64) {
+        (high, low.abs())
+    }
+
+    fn sum(terms: &[f64]) -> f64 {
+        exact::sum(terms)
+    }
+
+    #[inline(always)]
+    fn scaled(self, power: f64) -> f64 {
+        self * power
+    }
+}
+
+impl Middle for DoubleDouble {
+    const ZERO: Self = DoubleDouble::new(0.0, 0.0);
+    const ONE: Self = DoubleDouble::new(1.0, 0.0);
+    const IS_WIDE: bool = true;
+    /// Of the logarithm, whose exponential is squared ten times.
+    const ELEMENTARY: f64 = 4096.0;
+
+    fn of((high, low): (f64, f64)) -> (Self, f64) {
+        (DoubleDouble::new(high, low), 0.0)
+    }
+
+    fn sum(terms: &[f64]) -> Self {
+        let (high, low) = exact::pair(terms);
+        DoubleDouble::new(high, low)
+    }
+
+    fn scaled(self, power: f64) -> Self {
+        DoubleDouble::scaled(self, power)
+    }
+}
+
 /// All numbers from (middle - radius) 2^(256 steps) to (middle + radius) 2^(256 steps).
 #[derive(Clone, Copy, Debug)]
-pub struct Ball {
-    middle: f64,
+pub struct Ball<M> {
+    middle: M,
     radius: f64,
     steps: i64,
 }
 
-impl Ball {
-    pub const ZERO: Ball = Ball { middle: 0.0, radius: 0.0, steps: 0 };
+impl<M: Middle> Ball<M> {
+    pub const ZERO: Self = Ball { middle: M::ZERO, radius: 0.0, steps: 0 };
     /// Any number.
-    const UNKNOWN: Ball = Ball { middle: 0.0, radius: f64::INFINITY, steps: 0 };
-    pub const ONE: Ball = Ball { middle: 1.0, radius: 0.0, steps: 0 };
+    const UNKNOWN: Self = Ball { middle: M::ZERO, radius: f64::INFINITY, steps: 0 };
+    pub const ONE: Self = Ball { middle: M::ONE, radius: 0.0, steps: 0 };
 
     /// This very number; anything at all for what is not finite.
     pub fn exact(x: f64) -> Self {
@@ -58,23 +128,44 @@ impl Ball {
 
     /// All numbers at most `radius` from `middle`.
     pub fn within(middle: f64, radius: f64) -> Self {
-        if middle.is_finite() {
-            Ball { middle, radius: radius * OUTWARD, steps: 0 }.normalized()
+        Ball::near((middle, 0.0), radius)
+    }
+
+    /// All numbers at most `radius` from a sum, whose second part is within half a spacing of the first.
+    pub fn near(pair: (f64, f64), radius: f64) -> Self {
+        let (middle, lost) = M::of(pair);
+        if middle.to_f64().is_finite() {
+            Ball { middle, radius: (radius + lost) * OUTWARD, steps: 0 }.normalized()
         } else {
             Ball::UNKNOWN
         }
     }
 
+    /// The sum of at most 63 terms, which may be off by `radius`.
+    pub fn sum(terms: &[f64], radius: f64) -> Self {
+        let middle = M::sum(terms);
+        Ball { middle, radius: (radius + M::ROUNDOFF * middle.to_f64().abs()) * OUTWARD, steps: 0 }
+            .normalized()
+    }
+
+    /// The middle as f64.
+    #[inline(always)]
+    fn high(self) -> f64 {
+        self.middle.to_f64()
+    }
+
     /// The middle as f64, which may underflow or overflow.
     pub fn value(self) -> f64 {
-        self.scaled(self.middle)
+        self.scaled(self.high())
     }
 
     /// How far off [`value`](Self::value) may be, absolutely.
     pub fn error(self) -> f64 {
-        // What the conversion may round away of a subnormal.
-        let lost = if self.value().abs() < f64::MIN_POSITIVE { f64::MIN_POSITIVE } else { 0.0 };
-        self.scaled(self.radius) * OUTWARD + lost
+        let value = self.value().abs();
+        // What the conversion may round away, and of a subnormal.
+        let lost = if value < f64::MIN_POSITIVE { f64::MIN_POSITIVE } else { 0.0 };
+        let rounding = if M::IS_WIDE { EPS * value } else { 0.0 };
+        (self.scaled(self.radius) + rounding) * OUTWARD + lost
     }
 
     fn scaled(self, x: f64) -> f64 {
@@ -85,8 +176,8 @@ impl Ball {
     pub fn relative(self) -> f64 {
         if self.is_zero() {
             0.0
-        } else if self.middle.abs() > self.radius {
-            self.radius / (self.middle.abs() - self.radius) * OUTWARD
+        } else if self.high().abs() > self.radius {
+            self.radius / (self.high().abs() - self.radius) * OUTWARD
         } else {
             f64::INFINITY
         }
@@ -99,8 +190,8 @@ impl Ball {
 
     /// The largest absolute value there may be, exactly; of an unbounded one anything.
     pub fn largest(self) -> Self {
-        Ball { middle: (self.middle.abs() + self.radius) * OUTWARD, radius: 0.0, steps: self.steps }
-            .normalized()
+        let middle = M::from((self.high().abs() + self.radius) * OUTWARD);
+        Ball { middle, radius: 0.0, steps: self.steps }.normalized()
     }
 
     /// This, where it is only known relatively to what `relative` is at most.
@@ -112,7 +203,7 @@ impl Ball {
     pub fn up_to(size: Self) -> Self {
         let largest = size.largest();
         if largest.radius == 0.0 {
-            Ball { middle: 0.0, radius: largest.middle, ..largest }
+            Ball { middle: M::ZERO, radius: largest.high(), ..largest }
         } else {
             Ball::UNKNOWN
         }
@@ -120,7 +211,7 @@ impl Ball {
 
     /// The radius, exactly; of an unbounded one anything.
     pub fn radius(self) -> Self {
-        Ball { middle: self.radius, radius: 0.0, steps: self.steps }.normalized()
+        Ball { middle: M::from(self.radius), radius: 0.0, steps: self.steps }.normalized()
     }
 
     /// Whether the middle is, for choices that are right either way.
@@ -130,7 +221,7 @@ impl Ball {
 
     /// Whether this is 0 and nothing else.
     pub fn is_zero(self) -> bool {
-        self.middle == 0.0 && self.radius == 0.0
+        self.high() == 0.0 && self.radius == 0.0
     }
 
     /// What is known of a number by two ways: the better.
@@ -140,7 +231,7 @@ impl Ball {
     }
 
     pub fn abs(self) -> Self {
-        if self.middle < 0.0 { -self } else { self }
+        if self.high() < 0.0 { -self } else { self }
     }
 
     /// The root of what is not negative but for its error.
@@ -152,77 +243,92 @@ impl Ball {
             return Ball::UNKNOWN;
         }
         let (up, steps) = if self.steps & 1 == 0 { (1.0, self.steps) } else { (UP, self.steps - 1) };
-        let (middle, radius, steps) = (self.middle * up, self.radius * up, steps / 2);
-        let ball = if middle > radius {
-            let root = libm::sqrt(middle);
-            let radius = radius / (root + libm::sqrt(middle - radius)) + EPS * root;
+        let (middle, radius, steps) = (self.middle.scaled(up), self.radius * up, steps / 2);
+        let high = middle.to_f64();
+        let ball = if high > radius {
+            let root = middle.sqrt();
+            let (size, least) = (root.to_f64(), libm::sqrt((high / OUTWARD - radius).max(0.0)));
+            let radius = radius / (size + least) + 2.0 * M::ROUNDOFF * size;
             Ball { middle: root, radius: radius * OUTWARD, steps }
         } else {
-            let half = 0.5 * libm::sqrt((middle + radius).max(0.0)) * OUTWARD;
-            Ball { middle: half, radius: half * OUTWARD, steps }
+            let half = 0.5 * libm::sqrt((high + radius).max(0.0)) * OUTWARD;
+            Ball { middle: M::from(half), radius: half * OUTWARD, steps }
         };
         ball.normalized()
     }
 
     /// The length of (self, other).
     pub fn hypot(self, other: Self) -> Self {
+        if self.is_zero() || other.is_zero() {
+            return if self.is_zero() { other.abs() } else { self.abs() };
+        }
         let (a, b, steps) = aligned(self, other);
-        let middle = libm::hypot(a.0, b.0);
-        Ball { middle, radius: (a.1 + b.1 + ELEMENTARY * middle) * OUTWARD, steps }.normalized()
+        let middle = (a.0 * a.0 + b.0 * b.0).sqrt();
+        let size = middle.to_f64();
+        // What the squares lose below f64's range, of their root.
+        let lost = 4.0 * TINY / (size + libm::sqrt(4.0 * TINY)) + 3.0 * M::ROUNDOFF * size;
+        Ball { middle, radius: (a.1 + b.1 + lost) * OUTWARD, steps }.normalized()
     }
 
     /// The angle of the point (x, self) in 0..2pi: of one with y >= 0 but for its error in 0..=pi, and of one with x < 0 that
     /// is as close to pi as it may be from either side.
     pub fn angle(self, x: Self) -> Self {
         let (y, x, _) = aligned(self, x);
-        let length = libm::hypot(x.0, y.0);
+        let (high_x, high_y) = (x.0.to_f64().abs(), y.0.to_f64().abs());
+        let length = libm::hypot(high_x, high_y);
         let near = libm::hypot(x.1, y.1);
         if !(near <= 0.25 * length) {
             return Ball::UNKNOWN;
         }
-        let angle = libm::atan2(y.0, x.0);
-        let middle = if angle < 0.0 && x.0 < 0.0 { angle + std::f64::consts::TAU } else { angle };
+        let angle = y.0.atan2(x.0);
+        let middle = if angle.to_f64() < 0.0 && x.0.to_f64() < 0.0 { angle + M::TAU } else { angle };
         // The sine of the angle between both points is the cross product over the lengths, and the arc at most 1.1 times it
         // where it is at most 1/2.
-        let sine = (x.0.abs() * y.1 + y.0.abs() * x.1) / length / (length - near);
-        Ball { middle, radius: (1.1 * sine + ELEMENTARY * middle.abs()) * OUTWARD, steps: 0 }.normalized()
+        let sine = (high_x * y.1 + high_y * x.1) / length / (length - near);
+        let lost = M::ELEMENTARY * M::ROUNDOFF * middle.to_f64().abs();
+        Ball { middle, radius: (1.1 * sine + lost) * OUTWARD, steps: 0 }.normalized()
     }
 
-    /// The value of a function f of x >= 0 that decreases from f(0), nowhere steeper than `steepest` nor than f/(2 x): at self, if
-    /// that is known well enough.
-    fn falling(self, f: impl Fn(f64) -> f64, steepest: f64) -> Option<Self> {
-        let (x, error) = (self.value().max(0.0), self.error());
-        if !(x < 1e100 && error <= 0.5 * x.max(1e-3)) {
+    /// The value of a function f of x >= 0 that decreases from f(0), f(0) = 1, nowhere steeper than `steepest` nor than
+    /// f/(2 x): at self, if that is known well enough.
+    fn falling(self, f: impl Fn(M) -> M, steepest: f64) -> Option<Self> {
+        let (x, error) = (self.value().max(0.0), self.scaled(self.radius) * OUTWARD + f64::MIN_POSITIVE);
+        if !(x < 1e29 && error <= 0.5 * x.max(1e-3)) {
             return None;
         }
-        let middle = f(x);
-        let radius = steepest.min(middle / (x - error).max(0.0)) * error + 4.0 * ELEMENTARY * middle;
+        let (middle, error) = if x < SERIES { (M::ONE, x + error) } else { (f(self.middle), error) };
+        let size = middle.to_f64();
+        let radius =
+            steepest.min(size / (x - error).max(0.0)) * error + 4.0 * M::ELEMENTARY * M::ROUNDOFF * size;
         Some(Ball { middle, radius: radius * OUTWARD, steps: 0 }.normalized())
     }
 
     /// asinh(z)/z by z^2 = self.
     fn asinh_over_root(self) -> Self {
-        let near = self
-            .falling(|x| if x < 1e-18 { 1.0 } else { libm::asinh(libm::sqrt(x)) / libm::sqrt(x) }, 1.0 / 6.0);
-        near.unwrap_or_else(|| {
-            // log(2 z)/z, which is as good above 2^128 or so.
-            if !(self.steps >= 1 && self.middle > 4.0 * self.radius) {
+        let asinh = |x: M| {
+            let root = x.sqrt();
+            root.asinh() / root
+        };
+        self.falling(asinh, 1.0 / 6.0).unwrap_or_else(|| {
+            // log(2 z)/z, with what 1/(4 z^2) adds to the logarithm, to f64's digits.
+            if !(self.relative() < 0.25 && Ball::exact(1e20) < self) {
                 return Ball::UNKNOWN;
             }
             let root = self.sqrt();
             let log =
-                libm::log(2.0 * root.middle) + root.steps as f64 * (STEP as f64 * std::f64::consts::LN_2);
-            Ball::within(log, root.relative() + 4.0 * ELEMENTARY * log) / root
+                libm::log(2.0 * root.high()) + root.steps as f64 * (STEP as f64 * std::f64::consts::LN_2);
+            Ball::within(log, root.relative() + 4.0 * EPS * (log + 1.0)) / root
         })
     }
 
     /// The angle of the point (x, y) over y, by y^2 = self.
     fn angle_over_root(self, x: Self) -> Self {
         let near = if x > Ball::ZERO {
-            let slope = (self / (x * x)).falling(
-                |s| if s < 1e-18 { 1.0 } else { libm::atan(libm::sqrt(s)) / libm::sqrt(s) },
-                1.0 / 3.0,
-            );
+            let angle = |s: M| {
+                let root = s.sqrt();
+                root.atan2(M::ONE) / root
+            };
+            let slope = (self / (x * x)).falling(angle, 1.0 / 3.0);
             slope.map(|ratio| ratio / x)
         } else {
             None
@@ -235,23 +341,24 @@ impl Ball {
 
     #[inline(always)]
     fn normalized(self) -> Self {
-        let exponent = (self.middle.to_bits() >> 52) & 0x7ff;
-        if exponent.wrapping_sub(SMALLEST_EXPONENT) < STEP as u64 { self } else { self.stepped() }
+        let exponent = (self.high().to_bits() >> 52) & 0x7ff;
+        let is_in_range = exponent.wrapping_sub(SMALLEST_EXPONENT) < STEP as u64;
+        if !M::IS_WIDE || is_in_range { self } else { self.stepped() }
     }
 
     #[cold]
     fn stepped(self) -> Self {
         let Ball { mut middle, mut radius, mut steps } = self;
-        if !(middle.is_finite() && radius < f64::INFINITY) {
+        if !(middle.to_f64().is_finite() && radius < f64::INFINITY) {
             return Ball::UNKNOWN;
         }
         // An operation leaves the range by one step or two.
         for _ in 0..4 {
-            let size = middle.abs().max(radius);
+            let size = middle.to_f64().abs().max(radius);
             if size >= LARGEST && size.is_finite() {
-                (middle, radius, steps) = (middle * DOWN, radius * DOWN, steps + 1);
+                (middle, radius, steps) = (middle.scaled(DOWN), radius * DOWN, steps + 1);
             } else if size < LEAST && size > 0.0 {
-                (middle, radius, steps) = (middle * UP, radius * UP, steps - 1);
+                (middle, radius, steps) = (middle.scaled(UP), radius * UP, steps - 1);
             } else {
                 break;
             }
@@ -262,12 +369,16 @@ impl Ball {
 
 /// Middles and radii of both at the larger's steps.
 #[inline(always)]
-fn aligned(a: Ball, b: Ball) -> ((f64, f64), (f64, f64), i64) {
-    if a.steps == b.steps { ((a.middle, a.radius), (b.middle, b.radius), a.steps) } else { shifted(a, b) }
+fn aligned<M: Middle>(a: Ball<M>, b: Ball<M>) -> ((M, f64), (M, f64), i64) {
+    if !M::IS_WIDE || a.steps == b.steps {
+        ((a.middle, a.radius), (b.middle, b.radius), a.steps)
+    } else {
+        shifted(a, b)
+    }
 }
 
 #[cold]
-fn shifted(a: Ball, b: Ball) -> ((f64, f64), (f64, f64), i64) {
+fn shifted<M: Middle>(a: Ball<M>, b: Ball<M>) -> ((M, f64), (M, f64), i64) {
     let (whole_a, whole_b) = ((a.middle, a.radius), (b.middle, b.radius));
     if b.is_zero() {
         return (whole_a, whole_b, a.steps);
@@ -275,15 +386,15 @@ fn shifted(a: Ball, b: Ball) -> ((f64, f64), (f64, f64), i64) {
     if a.is_zero() {
         return (whole_a, whole_b, b.steps);
     }
-    let down = |ball: Ball, by: i64| {
+    let down = |ball: Ball<M>, by: i64| {
         if by < 4 {
             let power = power(-STEP * by as isize);
-            (ball.middle * power, ball.radius * power)
+            (ball.middle.scaled(power), ball.radius * power)
         } else if ball.radius <= LARGEST {
             // More than it is, and far below any rounding of the other.
-            (0.0, power(-3 * STEP))
+            (M::ZERO, power(-3 * STEP))
         } else {
-            (0.0, f64::INFINITY)
+            (M::ZERO, f64::INFINITY)
         }
     };
     if a.steps > b.steps {
@@ -293,60 +404,59 @@ fn shifted(a: Ball, b: Ball) -> ((f64, f64), (f64, f64), i64) {
     }
 }
 
-impl Neg for Ball {
-    type Output = Ball;
+impl<M: Middle> Neg for Ball<M> {
+    type Output = Ball<M>;
 
     #[inline]
-    fn neg(self) -> Ball {
+    fn neg(self) -> Ball<M> {
         Ball { middle: -self.middle, ..self }
     }
 }
 
-impl Add for Ball {
-    type Output = Ball;
+impl<M: Middle> Add for Ball<M> {
+    type Output = Ball<M>;
 
     #[inline]
-    fn add(self, other: Ball) -> Ball {
+    fn add(self, other: Ball<M>) -> Ball<M> {
         let (a, b, steps) = aligned(self, other);
         let middle = a.0 + b.0;
-        if a.1 == 0.0 && b.1 == 0.0 && (a.0 == 0.0 || b.0 == 0.0) {
-            return Ball { middle, radius: 0.0, steps };
-        }
-        Ball { middle, radius: (a.1 + b.1 + EPS * middle.abs()) * OUTWARD, steps }.normalized()
+        let size = middle.to_f64().abs();
+        Ball { middle, radius: (a.1 + b.1 + M::ROUNDOFF * size) * OUTWARD, steps }.normalized()
     }
 }
 
-impl Sub for Ball {
-    type Output = Ball;
+impl<M: Middle> Sub for Ball<M> {
+    type Output = Ball<M>;
 
     #[inline]
-    fn sub(self, other: Ball) -> Ball {
+    fn sub(self, other: Ball<M>) -> Ball<M> {
         self + -other
     }
 }
 
-impl Mul for Ball {
-    type Output = Ball;
+impl<M: Middle> Mul for Ball<M> {
+    type Output = Ball<M>;
 
     #[inline]
-    fn mul(self, other: Ball) -> Ball {
+    fn mul(self, other: Ball<M>) -> Ball<M> {
         if self.is_zero() || other.is_zero() {
             return Ball::ZERO;
         }
         let middle = self.middle * other.middle;
-        let radius = self.middle.abs() * other.radius
-            + self.radius * (other.middle.abs() + other.radius)
-            + EPS * middle.abs();
+        let radius = self.high().abs() * other.radius
+            + self.radius * (other.high().abs() + other.radius)
+            + M::ROUNDOFF * middle.to_f64().abs()
+            + TINY;
         Ball { middle, radius: radius * OUTWARD, steps: self.steps + other.steps }.normalized()
     }
 }
 
-impl Div for Ball {
-    type Output = Ball;
+impl<M: Middle> Div for Ball<M> {
+    type Output = Ball<M>;
 
     #[inline]
-    fn div(self, other: Ball) -> Ball {
-        let least = other.middle.abs() - other.radius;
+    fn div(self, other: Ball<M>) -> Ball<M> {
+        let least = other.high().abs() - other.radius;
         if !(least > 0.0 && least < f64::INFINITY) {
             return Ball::UNKNOWN;
         }
@@ -354,73 +464,79 @@ impl Div for Ball {
             return self;
         }
         let middle = self.middle / other.middle;
-        let radius = (self.radius + middle.abs() * other.radius) / least + EPS * middle.abs();
+        let size = middle.to_f64().abs();
+        let radius = (self.radius + size * other.radius) / least + M::ROUNDOFF * size + TINY;
         Ball { middle, radius: radius * OUTWARD, steps: self.steps - other.steps }.normalized()
     }
 }
 
-impl Shl<isize> for Ball {
-    type Output = Ball;
+impl<M: Middle> Shl<isize> for Ball<M> {
+    type Output = Ball<M>;
 
     #[inline]
-    fn shl(self, bits: isize) -> Ball {
-        let by = power(bits % STEP);
-        let steps = self.steps + (bits / STEP) as i64;
-        Ball { middle: self.middle * by, radius: self.radius * by, steps }.normalized()
+    fn shl(self, bits: isize) -> Ball<M> {
+        let (by, steps) = if M::IS_WIDE {
+            (power(bits % STEP), self.steps + (bits / STEP) as i64)
+        } else {
+            (power(bits), 0)
+        };
+        let lost = if M::IS_WIDE { 0.0 } else { TINY };
+        Ball { middle: self.middle.scaled(by), radius: self.radius * by + lost, steps }.normalized()
     }
 }
 
-impl Shr<isize> for Ball {
-    type Output = Ball;
+impl<M: Middle> Shr<isize> for Ball<M> {
+    type Output = Ball<M>;
 
     #[inline]
-    fn shr(self, bits: isize) -> Ball {
+    fn shr(self, bits: isize) -> Ball<M> {
         self << -bits
     }
 }
 
 /// Decided only where all numbers of both balls agree.
-impl PartialOrd for Ball {
+impl<M: Middle> PartialOrd for Ball<M> {
     #[inline]
-    fn partial_cmp(&self, other: &Ball) -> Option<Ordering> {
+    fn partial_cmp(&self, other: &Ball<M>) -> Option<Ordering> {
         let (a, b, _) = aligned(*self, *other);
-        let (difference, radius) = (a.0 - b.0, (a.1 + b.1) * OUTWARD);
+        let difference = (a.0 - b.0).to_f64();
+        let radius = (a.1 + b.1) * OUTWARD;
         if difference.abs() > radius || radius == 0.0 { difference.partial_cmp(&0.0) } else { None }
     }
 }
 
-impl PartialEq for Ball {
+impl<M: Middle> PartialEq for Ball<M> {
     #[inline]
-    fn eq(&self, other: &Ball) -> bool {
+    fn eq(&self, other: &Ball<M>) -> bool {
         self.partial_cmp(other) == Some(Ordering::Equal)
     }
 }
 
 macro_rules! by_reference {
     ($($operation:ident $method:ident),*) => { $(
-        impl $operation<&Ball> for Ball {
-            type Output = Ball;
+        impl<M: Middle> $operation<&Ball<M>> for Ball<M> {
+            type Output = Ball<M>;
 
             #[inline]
-            fn $method(self, other: &Ball) -> Ball {
+            fn $method(self, other: &Ball<M>) -> Ball<M> {
                 $operation::$method(self, *other)
             }
         }
 
-        impl $operation<Ball> for &Ball {
-            type Output = Ball;
+        impl<M: Middle> $operation<Ball<M>> for &Ball<M> {
+            type Output = Ball<M>;
 
             #[inline]
-            fn $method(self, other: Ball) -> Ball {
+            fn $method(self, other: Ball<M>) -> Ball<M> {
                 $operation::$method(*self, other)
             }
         }
 
-        impl $operation<&Ball> for &Ball {
-            type Output = Ball;
+        impl<M: Middle> $operation<&Ball<M>> for &Ball<M> {
+            type Output = Ball<M>;
 
             #[inline]
-            fn $method(self, other: &Ball) -> Ball {
+            fn $method(self, other: &Ball<M>) -> Ball<M> {
                 $operation::$method(*self, *other)
             }
         }
@@ -429,26 +545,27 @@ macro_rules! by_reference {
 
 by_reference!(Add add, Sub sub, Mul mul, Div div);
 
-impl Neg for &Ball {
-    type Output = Ball;
+impl<M: Middle> Neg for &Ball<M> {
+    type Output = Ball<M>;
 
     #[inline]
-    fn neg(self) -> Ball {
+    fn neg(self) -> Ball<M> {
         -*self
     }
 }
 
-impl Operand<Ball> for Ball {}
-impl Operand<Ball> for &Ball {}
+impl<M: Middle> Operand<Ball<M>> for Ball<M> {}
+impl<M: Middle> Operand<Ball<M>> for &Ball<M> {}
 
-impl Number for Ball {
+impl<M: Middle> Number for Ball<M> {
     fn whole(n: u8) -> Self {
         Ball::exact(n.into())
     }
 
-    /// To its own 53.
+    /// To its own.
     fn pi(_: usize) -> Self {
-        Ball::rounded(std::f64::consts::PI, 1.0)
+        let middle = M::TAU.scaled(0.5);
+        Ball { middle, radius: 4.0 * M::ROUNDOFF, steps: 0 }
     }
 
     fn root(&self) -> Self {
@@ -490,43 +607,83 @@ mod tests {
 
     const BITS: usize = 256;
 
-    /// Far beyond f64's exponents.
-    fn any() -> impl Strategy<Value = (Ball, Big)> {
-        (-1.0..1.0f64, -2000..2000i64).prop_map(|(x, shift)| {
+    type Wide = Ball<DoubleDouble>;
+
+    /// A number with exponents up to `shift`.
+    fn any<M: Middle>(shift: i64) -> impl Strategy<Value = (Ball<M>, Big)> {
+        (-1.0..1.0f64, -shift..shift).prop_map(|(x, shift)| {
             let shift = shift as isize;
             (Ball::exact(x) << shift, big::rounded(&big::exact(x), BITS) << shift)
         })
     }
 
-    fn big(ball: Ball) -> (Big, Big) {
+    fn big<M: Middle>(ball: Ball<M>) -> (Big, Big) {
         let shift = STEP * ball.steps as isize;
-        (big::rounded(&big::exact(ball.middle), BITS) << shift, big::exact(ball.radius) << shift)
+        let (high, low) = (ball.high(), (ball.middle - M::from(ball.high())).to_f64());
+        let middle = big::rounded(&(big::exact(high) + big::exact(low)), BITS);
+        (middle << shift, big::exact(ball.radius) << shift)
     }
 
-    fn holds(ball: Ball, exact: &Big) -> bool {
+    fn holds<M: Middle>(ball: Ball<M>, exact: &Big) -> bool {
         ball.radius == f64::INFINITY || big::abs(big(ball).0 - exact) <= big(ball).1
     }
 
+    fn operations_hold<M: Middle>([(a, x), (b, y), (c, z)]: [(Ball<M>, Big); 3]) {
+        assert!(holds(a + b, &(&x + &y)));
+        assert!(holds(a * b, &(&x * &y)));
+        // Operands that are off themselves.
+        let (sum, product) = (a + b, a * b);
+        let (exact_sum, exact_product) = (&x + &y, &x * &y);
+        assert!(holds(sum - c, &(&exact_sum - &z)));
+        assert!(holds(sum * product, &(&exact_sum * &exact_product)));
+        if z != Big::ZERO {
+            assert!(holds(sum / c, &(&exact_sum / &z)));
+            assert!((sum / c).relative() < 1e-14 || sum.relative() > 1e-15);
+        }
+        let squares = &exact_product * &exact_product + &z * &z;
+        assert!(holds((product * product + c * c).sqrt(), &squares.sqrt()));
+        assert!(holds(product.hypot(c), &squares.sqrt()));
+        assert!(holds(Ball::sum(&[1.0, -1e-30], 0.0) * a, &(&x * (Big::ONE + big::exact(-1e-30)))));
+        assert!(a.partial_cmp(&b) == x.partial_cmp(&y));
+    }
+
+    /// The crate's own functions are the independent arithmetic.
+    fn functions_hold<M: Middle>(y: f64, x: f64, shift: isize, off: f64) {
+        // Known to a part, the truth being at one end of it.
+        let blurred = |v: f64| {
+            let end = big::exact(v) + big::exact(off) * big::exact(v);
+            (Ball::<M>::within(v, off * v.abs()), big::rounded(&end, BITS))
+        };
+        let ((b, y), (a, x)) = (blurred(y), blurred(x));
+        let (b, y) = (b << shift, y << shift);
+        let pi = Big::pi(BITS);
+        assert!(holds(b.angle(a), &big::angle(&y, &x, &pi)));
+        let (square, big_square) = (b * b, &y * &y);
+        assert!(holds(square.asinh_over_root(), &big::asinh_over(&big_square, BITS)));
+        if y > Big::ZERO && x != Big::ZERO {
+            assert!(holds(square.angle_over_root(a), &(big::angle(&y, &x, &pi) / &y)));
+        }
+    }
+
     proptest! {
+        /// Far beyond f64's exponents, and within them, down to where they end.
         #[test]
-        fn results_are_within_the_radius((a, x) in any(), (b, y) in any(), (c, z) in any()) {
-            prop_assert!(holds(a + b, &(&x + &y)));
-            prop_assert!(holds(a * b, &(&x * &y)));
-            // Operands that are off themselves.
-            let (sum, product) = (a + b, a * b);
-            let (exact_sum, exact_product) = (&x + &y, &x * &y);
-            prop_assert!(holds(sum - c, &(&exact_sum - &z)));
-            prop_assert!(holds(sum * product, &(&exact_sum * &exact_product)));
-            if z != Big::ZERO {
-                prop_assert!(holds(sum / c, &(&exact_sum / &z)));
-                prop_assert!((sum / c).relative() < 1e-14 || sum.relative() > 1e-15);
+        fn results_are_within_the_radius(
+            wide in [any::<DoubleDouble>(2000), any(2000), any(2000)],
+            near in [any::<f64>(100), any(100), any(100)],
+            low in [any::<f64>(530), any(530), any(530)],
+        ) {
+            operations_hold(wide);
+            operations_hold(near);
+            let [(a, x), (b, y), (c, z)] = low;
+            prop_assert!(holds(a * b, &(&x * &y)) && holds(a * b * c, &(&x * &y * &z)));
+            prop_assert!(holds(a.hypot(b), &(&x * &x + &y * &y).sqrt()));
+            if y != Big::ZERO {
+                prop_assert!(holds(a * c / b, &(&x * &z / &y)));
             }
-            prop_assert!(holds((product * product + c * c).sqrt(), &(&exact_product * &exact_product + &z * &z).sqrt()));
-            prop_assert!(holds(product.hypot(c), &(&exact_product * &exact_product + &z * &z).sqrt()));
-            prop_assert!(a.partial_cmp(&b) == x.partial_cmp(&y));
         }
 
-        /// Close exponents, where angles are of any size; the crate's own functions are the independent arithmetic.
+        /// Close exponents, where angles are of any size, without errors of the operands and with them.
         #[test]
         fn functions_are_within_the_radius(
             y in 0.0..1.0f64,
@@ -534,57 +691,50 @@ mod tests {
             shift in -60..60isize,
             off in 0.0..1e-3f64,
         ) {
-            // Known to a part, the truth being at one end of it.
-            let blurred = |v: f64| (Ball::within(v, off * v.abs()), big::rounded(&big::exact(v + off * v), BITS));
-            let ((b, y), (a, x)) = (blurred(y), blurred(x));
-            let (b, y) = (b << shift, y << shift);
-            let pi = Big::pi(BITS);
-            prop_assert!(holds(b.angle(a), &big::angle(&y, &x, &pi)));
-            let (square, big_square) = (b * b, &y * &y);
-            prop_assert!(holds(square.asinh_over_root(), &big::asinh_over(&big_square, BITS)));
-            if y > Big::ZERO && x != Big::ZERO {
-                prop_assert!(holds(square.angle_over_root(a), &(big::angle(&y, &x, &pi) / &y)));
+            for off in [0.0, off] {
+                functions_hold::<f64>(y, x, shift, off);
+                functions_hold::<DoubleDouble>(y, x, shift, off);
             }
         }
     }
 
     #[test]
     fn what_is_unknown_stays_so() {
-        let around_zero = Ball::exact(1.0) - Ball::exact(1.0) * Ball::rounded(1.0, 1.0);
-        assert!(!(around_zero > Ball::ZERO) && !(around_zero <= Ball::ZERO) && around_zero != Ball::ZERO);
-        assert!((Ball::ONE / around_zero).relative() == f64::INFINITY);
-        assert!(Ball::exact(f64::NAN).relative() == f64::INFINITY);
+        let around_zero = Wide::exact(1.0) - Wide::exact(1.0) * Wide::rounded(1.0, 1.0);
+        assert!(!(around_zero > Wide::ZERO) && !(around_zero <= Wide::ZERO) && around_zero != Wide::ZERO);
+        assert!((Wide::ONE / around_zero).relative() == f64::INFINITY);
+        assert!(Wide::exact(f64::NAN).relative() == f64::INFINITY);
         let root = around_zero.sqrt();
-        assert!(root.largest() > Ball::exact(1e-9) && !(root > Ball::ZERO));
+        assert!(root.largest() > Wide::exact(1e-9) && !(root > Wide::ZERO));
         // Whatever it meets, and however far apart.
-        let unknown = Ball::ONE / around_zero;
-        for other in [Ball::ZERO, Ball::ONE, Ball::ONE << 2000, Ball::ONE >> 2000, around_zero, unknown] {
+        let unknown = Wide::ONE / around_zero;
+        for other in [Wide::ZERO, Wide::ONE, Wide::ONE << 2000, Wide::ONE >> 2000, around_zero, unknown] {
             for result in [unknown + other, other - unknown, unknown.hypot(other), (unknown + other).sqrt()] {
                 assert!(
-                    result.relative() == f64::INFINITY && !(result < Ball::ONE << 3000),
+                    result.relative() == f64::INFINITY && !(result < Wide::ONE << 3000),
                     "{other:?}: {result:?}"
                 );
             }
             let product = unknown * other;
             assert!(other.is_zero() || product.relative() == f64::INFINITY, "{product:?}");
-            assert!(((Ball::ONE + unknown) * other).sqrt().relative() == f64::INFINITY || other.is_zero());
+            assert!(((Wide::ONE + unknown) * other).sqrt().relative() == f64::INFINITY || other.is_zero());
         }
         assert!(
-            Ball::up_to(unknown).relative() == f64::INFINITY && unknown.largest().relative() == f64::INFINITY
+            Wide::up_to(unknown).relative() == f64::INFINITY && unknown.largest().relative() == f64::INFINITY
         );
-        assert!(Ball::ONE.widened(unknown.radius()).relative() == f64::INFINITY);
+        assert!(Wide::ONE.widened(unknown.radius()).relative() == f64::INFINITY);
         // A radius far beyond the middle.
-        let wide = Ball::ONE + Ball::up_to(Ball::ONE << 600);
-        assert!(!((Ball::ONE << 900) + wide > (Ball::ONE << 900) - (Ball::ONE << 590)));
+        let wide = Wide::ONE + Wide::up_to(Wide::ONE << 600);
+        assert!(!((Wide::ONE << 900) + wide > (Wide::ONE << 900) - (Wide::ONE << 590)));
         // Infinitely many steps of exponents hold.
-        let huge = (0..40).fold(Ball::exact(3.0), |x, _| x * x);
-        assert!((huge / huge - Ball::ONE).largest() < Ball::exact(1e-3), "{huge:?}");
-        assert_eq!((huge.value(), (Ball::ONE / huge).value()), (f64::INFINITY, 0.0));
+        let huge = (0..40).fold(Wide::exact(3.0), |x, _| x * x);
+        assert!((huge / huge - Wide::ONE).largest() < Wide::exact(1e-3), "{huge:?}");
+        assert_eq!((huge.value(), (Wide::ONE / huge).value()), (f64::INFINITY, 0.0));
     }
 
     #[test]
     fn the_better_of_two_is_taken() {
-        let (good, bad) = (Ball::rounded(1e-30, 1.0), Ball::within(0.0, 1e-20));
+        let (good, bad) = (Wide::rounded(1e-30, 1.0), Wide::within(0.0, 1e-20));
         assert_eq!(good.or(bad).value(), 1e-30);
         assert_eq!(bad.or(good).value(), 1e-30);
     }

@@ -30,6 +30,7 @@ use glam::{DMat3, DVec3};
 use super::exact3;
 use super::spacing::EPS;
 use super::twofold::Twofold;
+use super::visible_segment::Segment;
 
 /// The closed form does while its bound is at most this share of the value, 1.5e-11.
 const ACCURACY: f64 = 1.0 / (1u64 << 36) as f64;
@@ -335,13 +336,24 @@ impl Principal {
         if bound <= ACCURACY * value {
             return Some(Irradiance { value, bound, escalated: false, gradient });
         }
-        let (value, resolved) = self.area(swing, (cos0, sin0), (cos_d, sin_d));
+        let segment = Segment {
+            e1,
+            e3,
+            l,
+            middle: (cos0, sin0),
+            half: (cos_d, sin_d),
+            ends: [(cos1, sin1), (cos2, sin2)],
+            // All of them are in `disturbed`.
+            off: (0.0, 0.0, [0.0; 2]),
+        };
+        // Poles closer to the segment than f64 tells angles apart: nothing is promised.
+        let (sum, _) = segment.irradiance()?;
+        let value = a * b * c * swing / PI * sum;
         let bound = (64.0 * EPS + 4.0 * noise + 4.0 * disturbed) * value;
         // As many more digits as the closed form lost the gradient lost of its axes.
         let lost = terms / value;
         let known = e3.min(l) >= GRADED * lost * lost * e1.max(l);
-        // Poles closer to the segment than f64 tells angles apart: nothing is promised.
-        (resolved && known).then_some(Irradiance { value, bound, escalated: true, gradient })
+        known.then_some(Irradiance { value, bound, escalated: true, gradient })
     }
 
     /// G_ij = dE/dS_ij, from the integrals over the visible rim.

@@ -80,6 +80,11 @@ impl DoubleDouble {
         DoubleDouble { high, low }
     }
 
+    /// This times a power of two, exactly.
+    pub fn scaled(self, power: f64) -> Self {
+        DoubleDouble { high: self.high * power, low: self.low * power }
+    }
+
     /// The exponential of |x| <= 40.
     fn exp(x: f64) -> Self {
         // 2^-10 of it by the series, whose first term left out is 2^-105 (0.04)^14/14! and less; then ten squarings.

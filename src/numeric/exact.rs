@@ -9,6 +9,15 @@ pub fn sum(terms: &[f64]) -> f64 {
     if terms.len() <= 24 { sum_in(&mut [0.0; 24], terms) } else { sum_in(&mut [0.0; MOST], terms) }
 }
 
+/// The same with what that rounding left, rounded: relative error at most 2^-106. At most 63 terms.
+pub fn pair(terms: &[f64]) -> (f64, f64) {
+    let high = sum(terms);
+    let mut rest = [0.0; MOST];
+    rest[..terms.len()].copy_from_slice(terms);
+    rest[terms.len()] = -high;
+    (high, sum(&rest[..=terms.len()]))
+}
+
 /// The most terms that there may be: there are no more partial sums than terms.
 const MOST: usize = 64;
 

@@ -26,13 +26,18 @@ pub fn transformed(m: &[DVec3; 3], v: DVec3) -> Vector {
 
 /// The determinant of three vectors of f32 values, rounded once. Entries between 2^-300 and 2^300 in products of three.
 pub fn determinant(a: DVec3, b: DVec3, c: DVec3) -> f64 {
+    exact::sum(&determinant_terms(a, b, c))
+}
+
+/// What adds up to that exactly.
+pub fn determinant_terms(a: DVec3, b: DVec3, c: DVec3) -> [f64; 12] {
     let mut terms = [0.0; 12];
     let minors = [(b.y * c.z, b.z * c.y), (b.z * c.x, b.x * c.z), (b.x * c.y, b.y * c.x)];
     for (column, (plus, minus)) in minors.into_iter().enumerate() {
         let (p, q) = (two_product(plus, a[column]), two_product(minus, -a[column]));
         terms[4 * column..4 * column + 4].copy_from_slice(&[p.0, p.1, q.0, q.1]);
     }
-    exact::sum(&terms)
+    terms
 }
 
 /// The power of two that brings the largest component of the vectors into 1/2..1; 1 for zero vectors.
@@ -46,20 +51,16 @@ pub fn height(m: &[DVec3; 3], v: DVec3) -> f64 {
     exact::sum(&[m[0].z * v.x, m[1].z * v.y, m[2].z * v.z])
 }
 
-/// The sum of squares of sums of three, less another's: rounded once, so that the sign is right. Of products of two f32 values.
-pub fn difference_of_squares(plus: &[[f64; 3]], minus: &[f64; 3]) -> f64 {
-    let mut terms = [0.0; 48];
-    let mut used = 0;
-    for (sums, sign) in plus.iter().map(|sum| (sum, 1.0)).chain([(minus, -1.0)]) {
-        for (i, a) in sums.iter().enumerate() {
-            for (j, b) in sums.iter().enumerate().take(i + 1) {
-                let (high, low) = two_product(*a, if i == j { sign * b } else { 2.0 * sign * b });
-                (terms[used], terms[used + 1]) = (high, low);
-                used += 2;
-            }
-        }
+/// What adds up exactly to the square of a sum of three products of two f32 values, or to its opposite.
+pub fn square_of_sum(products: &[f64; 3], sign: f64) -> [f64; 12] {
+    let [a, b, c] = *products;
+    let pairs = [(a, a), (b, b), (c, c), (a, 2.0 * b), (a, 2.0 * c), (b, 2.0 * c)];
+    let mut terms = [0.0; 12];
+    for (slots, (p, q)) in terms.chunks_exact_mut(2).zip(pairs) {
+        let (high, low) = two_product(p, sign * q);
+        slots.copy_from_slice(&[high, low]);
     }
-    exact::sum(&terms[..used])
+    terms
 }
 
 /// What sums of [`square`]s of [`transformed`] vectors are off by, of their terms: a few of twofold arithmetic's 2^-102.
@@ -98,13 +99,14 @@ mod tests {
     fn differences_of_squares_have_their_sign() {
         // (1 + 2^-30 + 2^-40)^2 of one, and of the other in two parts and a bit.
         let (a, b) = (2f64.powi(-30), 2f64.powi(-40));
-        assert_eq!(difference_of_squares(&[[1.0, a, b]], &[b, 1.0, a]), 0.0);
+        let difference = |plus: &[[f64; 3]], minus: &[f64; 3]| {
+            let plus = plus.iter().flat_map(|sum| square_of_sum(sum, 1.0));
+            exact::sum(&plus.chain(square_of_sum(minus, -1.0)).collect::<Vec<_>>())
+        };
+        assert_eq!(difference(&[[1.0, a, b]], &[b, 1.0, a]), 0.0);
+        assert_eq!(difference(&[[1.0, a, b], [2f64.powi(-100), 0.0, 0.0]], &[b, a, 1.0]), 2f64.powi(-200));
         assert_eq!(
-            difference_of_squares(&[[1.0, a, b], [2f64.powi(-100), 0.0, 0.0]], &[b, a, 1.0]),
-            2f64.powi(-200)
-        );
-        assert_eq!(
-            difference_of_squares(&[[3.0, 0.0, 0.0], [4.0, 0.0, 0.0]], &[5.0, 2f64.powi(-90), 0.0]),
+            difference(&[[3.0, 0.0, 0.0], [4.0, 0.0, 0.0]], &[5.0, 2f64.powi(-90), 0.0]),
             -10.0 * 2f64.powi(-90)
         );
     }

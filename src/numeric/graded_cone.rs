@@ -60,6 +60,18 @@ pub struct Known {
 }
 
 impl Known {
+    /// What is known of either, by `further` where not all of it is.
+    pub fn or(self, further: impl FnOnce(&Self) -> Option<Self>) -> Self {
+        if self.irradiance.is_some() && self.sensitivity.is_some() {
+            return self;
+        }
+        let further = further(&self).unwrap_or_default();
+        Known {
+            irradiance: self.irradiance.or(further.irradiance),
+            sensitivity: self.sensitivity.or(further.sensitivity),
+        }
+    }
+
     /// All there is to know, by `further` where this is not.
     pub fn or_else(self, further: impl FnOnce(Self) -> Irradiance) -> Irradiance {
         match self {

@@ -51,7 +51,12 @@ pub fn cofactors(m: &DMat3) -> [Pairs; 3] {
 /// cof(m) v from [`cofactors`] and an exact vector: every component is off by at most 2^-53 of itself and 2^-103 of its
 /// largest term.
 pub fn cofactors_times(cofactors: &[Pairs; 3], v: &Pairs) -> DVec3 {
-    DVec3::from_array([0, 1, 2].map(|row| {
+    DVec3::from_array(cofactors_times_terms(cofactors, v).map(|terms| exact::sum(&terms)))
+}
+
+/// What adds up to every component of that: off by 2^-103 of the largest term.
+pub fn cofactors_times_terms(cofactors: &[Pairs; 3], v: &Pairs) -> [[f64; 12]; 3] {
+    [0, 1, 2].map(|row| {
         let mut terms = [0.0; 12];
         for (slots, (column, factor)) in terms.chunks_exact_mut(4).zip(cofactors.iter().zip(v)) {
             let (high, low) = column[row];
@@ -59,8 +64,8 @@ pub fn cofactors_times(cofactors: &[Pairs; 3], v: &Pairs) -> DVec3 {
             let error = high.mul_add(factor.0, -product);
             slots.copy_from_slice(&[product, error, high * factor.1, low * factor.0]);
         }
-        exact::sum(&terms)
-    }))
+        terms
+    })
 }
 
 /// a . v for an exact vector `v`, rounded once; `a` of f32 values. With [`cross`] the determinant [a, b, c].

@@ -1,35 +1,82 @@
-//! The irradiance of the part of an elliptic cone above the horizon as an integral of what is positive.
+//! The irradiance of the part of an elliptic cone above the horizon, and its gradient, as integrals of what is positive.
 //!
-//! It takes the place of the closed form of [`super::clipped_ellipse`] where that cancels: far lights and slivers.
+//! They take the place of the closed forms of [`super::clipped_ellipse`] and [`super::clipped_cone`] where those cancel: far
+//! lights and slivers. The rim is p(u) = (sqrt(e1) cos u, sqrt(e3) sin u, sqrt(l)), of height swing (cos(u - u0) - cos d). Lines
+//! parallel to the horizon end on the rim at u0 - t and u0 + t, and the light's area is that of those with t in 0..d.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::clipped_ellipse::Principal;
 use super::gauss_legendre::{POINTS_16, visit};
+use super::spacing::EPS;
 
-impl Principal {
-    /// The integral over the ellipse's visible segment: lines parallel to the horizon in closed form, across
-    /// them by Gauss's rule. The integrand is positive, so nothing cancels.
+/// Cosine and sine of an angle, neither of which has lost its digits by the other.
+pub type Turn = (f64, f64);
+
+/// The ellipse that a cone is, above the horizon.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment {
+    /// Eigenvalues, e1 >= e3, of -l. e3 or l is 0 where it is as good as that beside the others.
+    pub e1: f64,
+    pub e3: f64,
+    pub l: f64,
+    /// u0 and d.
+    pub middle: Turn,
+    pub half: Turn,
+    /// u0 - d and u0 + d, where the rim crosses the horizon.
+    pub ends: [Turn; 2],
+    /// How far off in absolute terms the angles may be: u0, d, and the ends.
+    pub off: (f64, f64, [f64; 2]),
+}
+
+/// An integral, and how far off it may be by what quadrature and the angles' errors make of it.
+pub type Integral = (f64, f64);
+
+/// A line from which others are told, so that all that is near it is known relatively.
+#[derive(Clone, Copy)]
+struct Anchor {
+    /// Its angle t, as such and less than d.
+    at: f64,
+    gap: f64,
+    line: Turn,
+    /// Its ends on the rim, at u0 - t and u0 + t.
+    points: [Turn; 2],
+    /// How far off the angles of ends and line may be.
+    off: [f64; 3],
+}
+
+/// A singularity at x +- i y from an anchor, and at all x + k pi: |x| <= pi/2. How far off x may be.
+#[derive(Clone, Copy)]
+struct Pole {
+    x: f64,
+    y: f64,
+    off: f64,
+}
+
+/// A line: its height over the horizon in units of the rim's swing, the angle t, and its ends.
+struct Line {
+    height: f64,
+    turn: Turn,
+    points: [Turn; 2],
+}
+
+impl Segment {
+    /// The irradiance as a share of the full hemisphere's, over sqrt(e1 e3 l) swing/pi. Nothing where poles are closer to the segment
+    /// than f64 tells angles apart.
     ///
-    /// It is singular where a line or the rim passes through the apex, at complex angles that are known: panels are
-    /// halved until they are far from them, and the answer says whether all are.
-    pub(super) fn area(
-        &self,
-        swing: f64,
-        (cos0, sin0): (f64, f64),
-        (cos_d, sin_d): (f64, f64),
-    ) -> (f64, bool) {
-        let &Principal { e1, e3, l, .. } = self;
-        let along = e1 * sin0 * sin0 + e3 * cos0 * cos0;
-        let skew = sin0 * cos0 * (e3 - e1);
-        let d = libm::atan2(sin_d, cos_d);
-        let line = |sin: f64, cos: f64, height: f64| {
+    /// Lines in closed form, across them by Gauss's rule.
+    pub fn irradiance(&self) -> Option<Integral> {
+        let &Segment { e1, e3, l, middle: (cos0, sin0), .. } = self;
+        let along = self.along();
+        let [sum] = self.integrate(|line| {
+            let ((cos, sin), [first, second]) = (line.turn, line.points);
             // |p|^2 = (s^2 + delta)/along with s linear along the line.
             let delta = l * along + cos * cos * e1 * e3;
-            let (s1, s2) = (skew * cos - along * sin, skew * cos + along * sin);
+            let place = |(cos, sin): Turn| e3 * cos0 * sin - e1 * sin0 * cos;
+            let square = |(cos, sin): Turn| along * (l + e1 * cos * cos + e3 * sin * sin);
+            let (s1, s2) = (place(first), place(second));
+            let (q1, q2) = (square(first), square(second));
             let root = libm::sqrt(delta);
             let width = 2.0 * along * sin;
-            let (q1, q2) = (s1 * s1 + delta, s2 * s2 + delta);
             // With the angles phi1, phi2 of its ends from its foot, and theta between them, the line has
             // (theta + sin theta cos(phi1 + phi2))/(2 delta^(3/2)); a cosine below 0 is -1 and a square.
             let theta = libm::atan2(root * width, delta + s1 * s2);
@@ -39,29 +86,129 @@ impl Principal {
                 let cosines = libm::sqrt(delta / q1) + libm::sqrt(delta / q2);
                 arc_over_chord(theta) + libm::tan(0.5 * theta) * cosines * cosines
             };
-            height * sin * along / (2.0 * delta * root) * sum
-        };
-        let rim = libm::asinh(libm::sqrt((l + e3) / (e1 - e3)));
-        let lines = libm::asinh(libm::sqrt(l * along / (e1 * e3)));
-        let mut halvings = HALVINGS;
-        // From both ends, so that what is close to either is told from it.
-        let poles = [(half_turn(cos0, sin0), rim), (half_turn(cos0, -sin0), rim), (0.5 * PI, lines)];
-        let top = graded(0.0, 0.5 * d, &poles, &mut halvings, &|angle| {
-            let (sin, cos) = libm::sincos(angle);
-            line(sin, cos, 2.0 * libm::sin(0.5 * (d + angle)) * libm::sin(0.5 * (d - angle)))
-        });
-        let (cos1, sin1) = (cos0 * cos_d + sin0 * sin_d, cos0 * sin_d - sin0 * cos_d);
-        let (cos2, sin2) = (cos0 * cos_d - sin0 * sin_d, sin0 * cos_d + cos0 * sin_d);
-        let poles =
-            [(half_turn(-cos2, sin2), rim), (half_turn(-cos1, sin1), rim), (half_turn(-cos_d, sin_d), lines)];
-        let bottom = graded(0.0, 0.5 * d, &poles, &mut halvings, &|rest| {
-            let (sin, cos) = libm::sincos(rest);
-            let height = 2.0 * libm::sin(d - 0.5 * rest) * libm::sin(0.5 * rest);
-            line(sin_d * cos - cos_d * sin, cos_d * cos + sin_d * sin, height)
-        });
-        let sum = top + bottom;
-        (libm::sqrt(e1 * e3 * l) * swing / PI * sum, halvings > 0)
+            [line.height * sin * along / (2.0 * delta * root) * sum]
+        })?;
+        Some(sum)
     }
+
+    /// The integrals of h/|p|^4 along the visible rim, h in units of the swing, times cos^2, sin^2, 1, cos sin, cos and sin of u.
+    /// Where those have signs, errors are those of what has none.
+    pub fn rim(&self) -> Option<[Integral; 6]> {
+        let &Segment { e1, e3, l, .. } = self;
+        let sums = self.integrate(|line| {
+            let [first, second] = line.points.map(|(cos, sin)| {
+                let q = l + e1 * cos * cos + e3 * sin * sin;
+                let by = line.height / (q * q);
+                [by * cos * cos, by * sin * sin, by, by * cos * sin, by * cos, by * sin]
+            });
+            // What has a sign is known as its size is.
+            let sum = |i: usize| first[i] + second[i];
+            let size = |i: usize| first[i].abs() + second[i].abs();
+            [sum(0), sum(1), sum(2), sum(3), sum(4), sum(5), size(3), size(4), size(5)]
+        })?;
+        Some(std::array::from_fn(|i| (sums[i].0, if i < 3 { sums[i].1 } else { sums[i + 3].1 })))
+    }
+
+    /// |d(rim)|^2 at the line through u0.
+    fn along(&self) -> f64 {
+        let &Segment { e1, e3, middle: (cos0, sin0), .. } = self;
+        e1 * sin0 * sin0 + e3 * cos0 * cos0
+    }
+
+    /// Integrals over t in 0..d of what may be singular where a line or the rim passes through the apex, with their errors.
+    fn integrate<const N: usize>(&self, f: impl Fn(Line) -> [f64; N]) -> Option<[Integral; N]> {
+        let &Segment { e1, e3, l, half, .. } = self;
+        let d = libm::atan2(half.1, half.0);
+        // Complex angles at which the rim's and the lines' squares vanish.
+        let rim = libm::asinh(libm::sqrt((l + e3) / (e1 - e3).max(0.0)));
+        let lines = libm::asinh(libm::sqrt(l * self.along() / (e1 * e3)));
+        let mut panels = Panels { left: PANELS, sums: [(0.0, 0.0); N] };
+        let anchors = self.anchors(d, rim, lines);
+        for (low, high) in anchors.iter().zip(&anchors[1..]) {
+            let end = 0.5 * if low.at <= low.gap { high.at - low.at } else { low.gap - high.gap };
+            for (anchor, by) in [(low, 1.0), (high, -1.0)] {
+                let [first, second] = anchor.points;
+                // A point is in the plane of the axis, and a line through the middle, where its cosine is 0.
+                let pole = |(cos, sin): Turn, moves: f64, y: f64, off: f64| Pole {
+                    x: half_turn(moves * cos, sin),
+                    y,
+                    off,
+                };
+                let poles = [
+                    pole(first, -by, rim, anchor.off[0]),
+                    pole(second, by, rim, anchor.off[1]),
+                    pole(anchor.line, by, lines, anchor.off[2]),
+                ];
+                panels.graded(0.0, end, &poles, &|t| f(anchor.line_at(d, t, by)));
+            }
+        }
+        (panels.left > 0).then_some(panels.sums)
+    }
+
+    /// The first line and the last, and between them those by which poles are that f64 would not tell from 0.
+    fn anchors(&self, d: f64, rim: f64, lines: f64) -> Vec<Anchor> {
+        let &Segment { middle, half, ends, off, .. } = self;
+        let top =
+            Anchor { at: 0.0, gap: d, line: (1.0, 0.0), points: [middle, middle], off: [off.0, off.0, 0.0] };
+        let bottom = Anchor { at: d, gap: 0.0, line: half, points: ends, off: [off.2[0], off.2[1], off.1] };
+        let mut anchors = vec![top];
+        let both = off.0 + off.1;
+        for (k, y) in [(0, rim), (1, rim), (2, lines)] {
+            if !(y < NARROW) {
+                continue;
+            }
+            let place = |anchor: &Anchor, by: f64| match k {
+                0 => half_turn(-by * anchor.points[0].0, anchor.points[0].1),
+                1 => half_turn(by * anchor.points[1].0, anchor.points[1].1),
+                _ => half_turn(by * anchor.line.0, anchor.line.1),
+            };
+            // By the end that is nearer, from 0..pi.
+            for (end, by) in [(&top, 1.0), (&bottom, -1.0)] {
+                let x = place(end, by);
+                let x = if x < 0.0 { x + PI } else { x };
+                if !(x > 0.0 && x <= 0.5 * d) {
+                    continue;
+                }
+                let (sin, cos) = libm::sincos(x);
+                let mut anchor = Anchor {
+                    at: end.at + by * x,
+                    gap: end.gap - by * x,
+                    line: turned(end.line, (sin, cos), by),
+                    points: [turned(end.points[0], (sin, cos), -by), turned(end.points[1], (sin, cos), by)],
+                    off: [both; 3],
+                };
+                match k {
+                    0 | 1 => anchor.points[k] = (0.0, anchor.points[k].1.signum()),
+                    _ => anchor.line = (0.0, 1.0),
+                }
+                anchor.off[k] = 0.0;
+                anchors.push(anchor);
+            }
+        }
+        // By what tells them apart.
+        anchors[1..].sort_by(|a, b| {
+            if a.at <= a.gap && b.at <= b.gap { a.at.total_cmp(&b.at) } else { b.gap.total_cmp(&a.gap) }
+        });
+        anchors.push(bottom);
+        anchors
+    }
+}
+
+impl Anchor {
+    /// The line that is `t` from here, up or down by the sign of `by`.
+    fn line_at(&self, d: f64, t: f64, by: f64) -> Line {
+        let turn = libm::sincos(t);
+        Line {
+            height: 2.0 * libm::sin(0.5 * (d + self.at + by * t)) * libm::sin(0.5 * (self.gap - by * t)),
+            turn: turned(self.line, turn, by),
+            points: [turned(self.points[0], turn, -by), turned(self.points[1], turn, by)],
+        }
+    }
+}
+
+/// The angle's cosine and sine after a turn with that (sine, cosine), forth or back.
+fn turned((cos, sin): Turn, (sin_t, cos_t): (f64, f64), by: f64) -> Turn {
+    (cos * cos_t - by * sin * sin_t, sin * cos_t + by * cos * sin_t)
 }
 
 /// x - sin x for x in 0..pi/2, to a few roundings: below 1/2 by its series, whose next term is 2^-58 of the sum.
@@ -78,32 +225,69 @@ fn arc_over_chord(x: f64) -> f64 {
     x * square / 6.0 * sum
 }
 
-/// Halvings for an integral: three poles at 2^-30 off the real axis take as many, and more are for the arithmetic that does
-/// not know f64's angles.
-const HALVINGS: u32 = 3 * 4 * 30;
-
 /// The angle of (x, y) or of (-x, -y), in -pi/2..pi/2.
 fn half_turn(y: f64, x: f64) -> f64 {
     if x < 0.0 { libm::atan2(-y, -x) } else { libm::atan2(y, x) }
 }
 
-/// The integral of `f` over low..high within 0..pi, which is singular at the poles (x + k pi) + i y only, |x| <= pi/2.
-///
-/// A panel whose middle is 1.8 half lengths away from every pole has none within the ellipse of semi-axes' sum 3.3, and
-/// 16 points are good to 3.3^-32 = 3e-17 of what is largest in that.
-///
-/// Takes no more than `halvings`, and leaves how many are left: none, if they did not do.
-fn graded(low: f64, high: f64, poles: &[(f64, f64)], halvings: &mut u32, f: &impl Fn(f64) -> f64) -> f64 {
-    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-    let near = |&(x, y): &(f64, f64)| {
-        let off = if middle - x > 0.5 * PI { middle - x - PI } else { middle - x };
-        off * off + y * y < 3.24 * half * half
-    };
-    if *halvings == 0 || !poles.iter().any(near) {
-        let mut sum = 0.0;
-        visit(&POINTS_16, low, high, |x, weight| sum += weight * f(x));
-        return sum;
+/// Panels of an integral: three poles at 2^-120 off the real axis take as many, and more are for an arithmetic that does not know
+/// f64's angles.
+const PANELS: u32 = 3 * 2 * 120;
+
+/// Poles that are so near the real axis are anchors.
+const NARROW: f64 = 1.0 / (1u64 << 30) as f64;
+
+/// A panel is far from a pole that is so many half lengths from its ends together.
+const FAR: f64 = 3.6;
+
+/// What rounding leaves of one line, and of the order at which poles amplify.
+const ROUNDINGS: f64 = 32.0 * EPS;
+const ORDER: f64 = 4.0;
+
+struct Panels<const N: usize> {
+    left: u32,
+    sums: [(f64, f64); N],
+}
+
+impl<const N: usize> Panels<N> {
+    /// Adds the integral of `f` over low..high within 0..pi, which is singular at the poles only.
+    ///
+    /// None is within the ellipse about a panel's ends of semi-axes' sum (3.6 + sqrt(3.6^2 - 4))/2 = 3.3, and 16 points are good to
+    /// 3.3^-32 = 3e-17 of what is largest in that. What angles are off by counts by the pole's distance from the panel.
+    fn graded(&mut self, low: f64, high: f64, poles: &[Pole; 3], f: &impl Fn(f64) -> [f64; N]) {
+        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let mut off = ROUNDINGS;
+        let mut near: Option<f64> = None;
+        for &Pole { x, y, off: unknown } in poles {
+            let x = if middle - x > FRAC_PI_2 { x + PI } else { x };
+            let distance = libm::hypot(x - low, y) + libm::hypot(x - high, y);
+            if !(distance >= FAR * half) {
+                near = Some((x - middle) / half);
+            } else {
+                off += ORDER * (unknown + 4.0 * EPS * high) / (0.5 * distance - half);
+            }
+        }
+        match near {
+            Some(place) if self.left > 0 => {
+                self.left -= 1;
+                // 0.3 of it where the pole is near an end, half where it is not.
+                let cut = if place < -0.5 {
+                    low + 0.6 * half
+                } else if place > 0.5 {
+                    high - 0.6 * half
+                } else {
+                    middle
+                };
+                self.graded(low, cut, poles, f);
+                self.graded(cut, high, poles, f);
+            }
+            Some(_) => {}
+            None => visit(&POINTS_16, low, high, |x, weight| {
+                for ((sum, error), term) in self.sums.iter_mut().zip(f(x)) {
+                    *sum += weight * term;
+                    *error += weight * term.abs() * off;
+                }
+            }),
+        }
     }
-    *halvings -= 1;
-    graded(low, middle, poles, halvings, f) + graded(middle, high, poles, halvings, f)
 }
