@@ -861,10 +861,14 @@ mod tests {
             let truth = truth_of(&row);
             let of_oracle = (truth.values()[0], truth.sensitivities()[0]);
             let big = graded(exact3::columns(&row), exact3::columns(&row[CENTER..]), Known::default());
-            for (found, sensitivity) in [of_oracle, (big.value, big.sensitivity)] {
+            for found in [of_oracle.0, big.value] {
                 assert!((found / value - 1.0).abs() <= 1e-11, "{row:?}: {found:e} for {value:e}");
-                assert!((sensitivity / value / share - 1.0).abs() <= 0.01, "{row:?}: {sensitivity:e}");
             }
+            let off = |sensitivity: f64| sensitivity / value / share - 1.0;
+            assert!(off(big.sensitivity).abs() <= 0.01, "{row:?}: {big:?}");
+            // Of what f32 has no digits of, a bound may do.
+            let is_bound = of_oracle.1 < f64::from(f32::MIN_POSITIVE) && off(of_oracle.1) >= -0.01;
+            assert!(off(of_oracle.1).abs() <= 0.01 || is_bound, "{row:?}: {of_oracle:?}");
         }
     }
 

@@ -13,7 +13,7 @@ use std::ops::{Add, Div, Mul, Neg, Shl, Shr, Sub};
 
 use super::clipped_cone::{Number, Operand};
 use super::double_double::{DoubleDouble, Real};
-use super::exact;
+use super::exact::{self, two_sum};
 use super::spacing::EPS;
 
 /// Exponents are kept in steps of so many.
@@ -31,6 +31,8 @@ const SMALLEST_EXPONENT: u64 = (1023 - STEP / 2) as u64;
 const OUTWARD: f64 = 1.0 + 8.0 * f64::EPSILON;
 /// More than a product or quotient loses below f64's range.
 const TINY: f64 = f64::MIN_POSITIVE;
+/// What sums in two parts lose of twelve terms, which may be off by 2^-103 themselves.
+const SUMS: f64 = 1.0 / (1u128 << 98) as f64;
 /// Below this square 1 is asinh(z)/z and atan(z)/z to all digits.
 const SERIES: f64 = 1e-32;
 
@@ -146,6 +148,17 @@ impl<M: Middle> Ball<M> {
         let middle = M::sum(terms);
         Ball { middle, radius: (radius + M::ROUNDOFF * middle.to_f64().abs()) * OUTWARD, steps: 0 }
             .normalized()
+    }
+
+    /// The sum of at most twelve terms, up to 2^-98 of what they add up to in absolute value.
+    pub fn short_sum(terms: &[f64]) -> Self {
+        let (mut sum, mut rest, mut size) = (0.0, 0.0, 0.0);
+        for &term in terms {
+            let (next, lost) = two_sum(sum, term);
+            (sum, rest, size) = (next, rest + lost, size + term.abs());
+        }
+        let high = sum + rest;
+        Ball::near((high, rest - (high - sum)), SUMS * size)
     }
 
     /// The middle as f64.

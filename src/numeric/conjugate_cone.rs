@@ -101,6 +101,7 @@ impl<M: Middle> Seen<M> {
             irradiance: (value > Ball::ZERO && value.relative() <= ACCURACY)
                 .then(|| (value.value().min(1.0), value.error())),
             sensitivity: (sum.relative() <= PERCENT).then(|| sum.value()),
+            most: sum.value() + sum.error(),
         }
     }
 
@@ -121,7 +122,7 @@ impl<M: Middle> Seen<M> {
             let scale = swing / (pi << 1);
             let by = [b * c / a, a * c / b, a * b / c, c, -b, -a];
             let rim = segment.rim()?.map(within);
-            self.gradient = std::array::from_fn(|i| scale * by[i] * rim[i]);
+            self.gradient = std::array::from_fn(|i| self.gradient[i].or(scale * by[i] * rim[i]));
         }
         Some(self)
     }
@@ -191,6 +192,15 @@ struct Local<M> {
     height: Ball<M>,
 }
 
+/// The principal frame.
+struct Framed<M> {
+    cone: Principal<Ball<M>>,
+    /// Its axes in the ellipse's own frame.
+    axes: [Vector<M>; 3],
+    /// C, A and B in it.
+    images: [Vector<M>; 3],
+}
+
 impl<M: Middle> ConjugateCone<M> {
     /// Of `light`, centre and conjugate semi-axes, under `minv`, all of f32 values; `szz` is known better than from their images.
     pub fn of_ellipse(minv: &[DVec3; 3], light: &[DVec3; 3], szz: Ball<M>) -> Self {
@@ -201,8 +211,7 @@ impl<M: Middle> ConjugateCone<M> {
         let cofactors = products::cofactors(&DMat3::from_cols(minv[0], minv[1], minv[2]));
         let product = |p: DVec3, q: DVec3| {
             let terms = products::cofactors_times_terms(&cofactors, &products::cross(p, q));
-            // Every fourth is the product that the three next correct.
-            terms.map(|terms| Ball::sum(&terms, PAIRS * (terms[0].abs() + terms[4].abs() + terms[8].abs())))
+            terms.map(|terms| Ball::short_sum(&terms))
         };
         let image = |v: DVec3| {
             [0, 1, 2].map(|row| {
@@ -239,7 +248,7 @@ impl<M: Middle> ConjugateCone<M> {
         let first_is_longer = dot(a, a).is_above(dot(b, b));
         let local = self.local(first_is_longer);
         let l = local.root()?;
-        let (cone, axes, [center, longer, other]) = local.principal(l)?;
+        let Framed { cone, axes, images: [center, longer, other] } = local.principal(l)?;
         let (value, rim) = cone.irradiance(&self.szz, 53)?;
         let gradient = cone.gradient(&rim, 53);
         let (a, b) =
@@ -330,8 +339,8 @@ impl<M: Middle> Local<M> {
         (relative < Ball::exact(1e-8)).then(|| l.widened(relative * Ball::exact(1.000_001)))
     }
 
-    /// The principal frame: eigenvalues and heights, the axes in this frame, and C, A, B in that one.
-    fn principal(&self, l: Ball<M>) -> Option<(Principal<Ball<M>>, [Vector<M>; 3], [Vector<M>; 3])> {
+    /// The principal frame of -l.
+    fn principal(&self, l: Ball<M>) -> Option<Framed<M>> {
         let &Local { along, shear, across, center: [x, y, z], turned, sum, product, beta, kappa, .. } = self;
         let share = z * z / l;
         let square = (l + sum) * l + product;
@@ -397,7 +406,8 @@ impl<M: Middle> Local<M> {
         let [along_1, along_2, along_3] = images[0];
         let heights = [up, level, middle.or((self.height - along_1 * up - along_2 * level) / along_3)];
         let volume = along * across * z.abs();
-        certain.then_some((Principal { e1, e3, l, volume, heights }, [w1, w2, w3], images))
+        let cone = Principal { e1, e3, l, volume, heights };
+        certain.then_some(Framed { cone, axes: [w1, w2, w3], images })
     }
 
     /// Principal axes in the world, whose heights are known.
@@ -457,9 +467,6 @@ fn segment<M: Middle>(cone: &Principal<Ball<M>>, szz: &Ball<M>) -> Option<(Segme
     let unit = (most * least).sqrt().middle();
     let share_of = |x: Ball<M>, is_nothing: bool| if is_nothing { 0.0 } else { (x / unit).value() };
     let [e1, e3, l] = [share_of(e1, false), share_of(e3, slim), share_of(l, flat)];
-    // Products of three squares are within f64's.
-    let in_range = |x: f64| (1e-99..1e99).contains(&x);
-    let in_range = in_range(e1) && (slim || in_range(e3)) && (flat || in_range(l)) && half.1 > 1e-99;
     let segment = Segment {
         e1,
         e3,
@@ -469,6 +476,10 @@ fn segment<M: Middle>(cone: &Principal<Ball<M>>, szz: &Ball<M>) -> Option<(Segme
         ends: [first, second],
         off: (off_middle, off_half, [off_first, off_second]),
     };
+    // Products of three squares are within f64's.
+    let in_range = [e1, if slim { 1.0 } else { e3 }, if flat { 1.0 } else { l }, segment.along(), half.1]
+        .into_iter()
+        .all(|x| (1e-99..1e99).contains(&x));
     (in_range && share < 1.0).then_some((segment, unit, share))
 }
 

@@ -46,17 +46,27 @@ pub struct GradedCone {
 #[derive(Clone, Copy, Debug)]
 pub struct Irradiance {
     pub value: f64,
-    /// Absolute error bound: one rounding, or 1 where no precision did.
+    /// Absolute error bound: 1 where no precision did.
     pub bound: f64,
+    /// To a percent, or the most that it may be where f32 has no digits of that.
     pub sensitivity: f64,
 }
 
 /// What other arithmetics know of it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Known {
     /// The irradiance with its absolute error bound.
     pub irradiance: Option<(f64, f64)>,
+    /// To a percent.
     pub sensitivity: Option<f64>,
+    /// No more than so much; infinite or no number where nothing is known.
+    pub most: f64,
+}
+
+impl Default for Known {
+    fn default() -> Self {
+        Known { irradiance: None, sensitivity: None, most: f64::INFINITY }
+    }
 }
 
 impl Known {
@@ -69,15 +79,15 @@ impl Known {
         Known {
             irradiance: self.irradiance.or(further.irradiance),
             sensitivity: self.sensitivity.or(further.sensitivity),
+            most: self.most.min(further.most),
         }
     }
 
     /// All there is to know, by `further` where this is not.
     pub fn or_else(self, further: impl FnOnce(Self) -> Irradiance) -> Irradiance {
-        match self {
-            Known { irradiance: Some((value, bound)), sensitivity: Some(sensitivity) } => {
-                Irradiance { value, bound, sensitivity }
-            }
+        let most = Some(self.most).filter(|most| *most < f64::from(f32::MIN_POSITIVE));
+        match (self.irradiance, self.sensitivity.or(most)) {
+            (Some((value, bound)), Some(sensitivity)) => Irradiance { value, bound, sensitivity },
             _ => further(self),
         }
     }
@@ -381,8 +391,11 @@ impl Agreement {
         // The bound that more precision is asked for at.
         assert!((value - exact.value).abs() <= 1.5e-11 * exact.value, "{row:?}: {value} {exact:?}");
         assert!(exact.bound <= 1e-15 * exact.value, "{row:?}: {exact:?}");
-        // What the subtraction leaves of the digits.
-        if jumps <= 1e9 * exact.sensitivity {
+        // Of what f32 has no digits of, a bound.
+        if sensitivity < f64::from(f32::MIN_POSITIVE) {
+            assert!(sensitivity >= 0.99 * exact.sensitivity, "{row:?}: {sensitivity} {exact:?}");
+        } else if jumps <= 1e9 * exact.sensitivity {
+            // What the subtraction leaves of the digits.
             self.worst = self.worst.max(((sensitivity - jumps) / exact.sensitivity - 1.0).abs());
         }
         self.compared += 1;

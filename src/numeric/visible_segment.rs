@@ -109,8 +109,8 @@ impl Segment {
         Some(std::array::from_fn(|i| (sums[i].0, if i < 3 { sums[i].1 } else { sums[i + 3].1 })))
     }
 
-    /// |d(rim)|^2 at the line through u0.
-    fn along(&self) -> f64 {
+    /// The square of half the longest line.
+    pub fn along(&self) -> f64 {
         let &Segment { e1, e3, middle: (cos0, sin0), .. } = self;
         e1 * sin0 * sin0 + e3 * cos0 * cos0
     }
@@ -139,7 +139,8 @@ impl Segment {
                     pole(second, by, rim, anchor.off[1]),
                     pole(anchor.line, by, lines, anchor.off[2]),
                 ];
-                panels.graded(0.0, end, &poles, &|t| f(anchor.line_at(d, t, by)));
+                let (above, below) = (libm::sincos(0.5 * (d + anchor.at)), libm::sincos(0.5 * anchor.gap));
+                panels.graded(0.0, end, &poles, &|t| f(anchor.line_at(t, by, above, below)));
             }
         }
         (panels.left > 0).then_some(panels.sums)
@@ -195,11 +196,13 @@ impl Segment {
 }
 
 impl Anchor {
-    /// The line that is `t` from here, up or down by the sign of `by`.
-    fn line_at(&self, d: f64, t: f64, by: f64) -> Line {
-        let turn = libm::sincos(t);
+    /// The line that is `t` from here, up or down by the sign of `by`; sines and cosines of half the sum and half the difference of
+    /// d and the anchor's angle. A line is no nearer to d than the anchor's half, so that they keep their digits.
+    fn line_at(&self, t: f64, by: f64, above: (f64, f64), below: (f64, f64)) -> Line {
+        let (sin, cos) = libm::sincos(0.5 * t);
+        let turn = (2.0 * sin * cos, 1.0 - 2.0 * sin * sin);
         Line {
-            height: 2.0 * libm::sin(0.5 * (d + self.at + by * t)) * libm::sin(0.5 * (self.gap - by * t)),
+            height: 2.0 * (above.0 * cos + by * above.1 * sin) * (below.0 * cos - by * below.1 * sin),
             turn: turned(self.line, turn, by),
             points: [turned(self.points[0], turn, -by), turned(self.points[1], turn, by)],
         }
