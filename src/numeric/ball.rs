@@ -123,11 +123,6 @@ impl<M: Middle> Ball<M> {
         Ball::within(x, 0.0)
     }
 
-    /// What was rounded to `x` at most a few times: within `roundings` of it.
-    pub fn rounded(x: f64, roundings: f64) -> Self {
-        Ball::within(x, roundings * EPS * x.abs())
-    }
-
     /// All numbers at most `radius` from `middle`.
     pub fn within(middle: f64, radius: f64) -> Self {
         Ball::near((middle, 0.0), radius)
@@ -187,10 +182,11 @@ impl<M: Middle> Ball<M> {
 
     /// The radius over the least absolute value there may be; infinite where that is 0.
     pub fn relative(self) -> f64 {
-        if self.is_zero() {
+        let least = self.high().abs() / OUTWARD - self.radius;
+        if self.radius == 0.0 {
             0.0
-        } else if self.high().abs() > self.radius {
-            self.radius / (self.high().abs() - self.radius) * OUTWARD
+        } else if least > 0.0 {
+            self.radius / least * OUTWARD
         } else {
             f64::INFINITY
         }
@@ -240,7 +236,7 @@ impl<M: Middle> Ball<M> {
     /// What is known of a number by two ways: the better.
     pub fn or(self, other: Self) -> Self {
         let (a, b, _) = aligned(self, other);
-        if b.1 < a.1 { other } else { self }
+        if a.1 <= b.1 { self } else { other }
     }
 
     pub fn abs(self) -> Self {
@@ -252,7 +248,8 @@ impl<M: Middle> Ball<M> {
         if self.is_zero() {
             return self;
         }
-        if !(self.radius < f64::INFINITY) {
+        // Unknown, or negative.
+        if !(self.radius < f64::INFINITY && self.high() + self.radius >= 0.0) {
             return Ball::UNKNOWN;
         }
         let (up, steps) = if self.steps & 1 == 0 { (1.0, self.steps) } else { (UP, self.steps - 1) };
@@ -264,7 +261,7 @@ impl<M: Middle> Ball<M> {
             let radius = radius / (size + least) + 2.0 * M::ROUNDOFF * size;
             Ball { middle: root, radius: radius * OUTWARD, steps }
         } else {
-            let half = 0.5 * libm::sqrt((high + radius).max(0.0)) * OUTWARD;
+            let half = 0.5 * libm::sqrt(high + radius) * OUTWARD;
             Ball { middle: M::from(half), radius: half * OUTWARD, steps }
         };
         ball.normalized()
@@ -297,7 +294,8 @@ impl<M: Middle> Ball<M> {
         let middle = if angle.to_f64() < 0.0 && x.0.to_f64() < 0.0 { angle + M::TAU } else { angle };
         // The sine of the angle between both points is the cross product over the lengths, and the arc at most 1.1 times it
         // where it is at most 1/2.
-        let sine = (high_x * y.1 + high_y * x.1) / length / (length - near);
+        let rest = length - near;
+        let sine = high_x / length * (y.1 / rest) + high_y / length * (x.1 / rest);
         let lost = M::ELEMENTARY * M::ROUNDOFF * middle.to_f64().abs();
         Ball { middle, radius: (1.1 * sine + lost) * OUTWARD, steps: 0 }.normalized()
     }
@@ -469,7 +467,7 @@ impl<M: Middle> Div for Ball<M> {
 
     #[inline]
     fn div(self, other: Ball<M>) -> Ball<M> {
-        let least = other.high().abs() - other.radius;
+        let least = other.high().abs() / OUTWARD - other.radius;
         if !(least > 0.0 && least < f64::INFINITY) {
             return Ball::UNKNOWN;
         }
@@ -478,7 +476,7 @@ impl<M: Middle> Div for Ball<M> {
         }
         let middle = self.middle / other.middle;
         let size = middle.to_f64().abs();
-        let radius = (self.radius + size * other.radius) / least + M::ROUNDOFF * size + TINY;
+        let radius = self.radius / least + size * (other.radius / least) + M::ROUNDOFF * size + TINY;
         Ball { middle, radius: radius * OUTWARD, steps: self.steps - other.steps }.normalized()
     }
 }
@@ -488,13 +486,11 @@ impl<M: Middle> Shl<isize> for Ball<M> {
 
     #[inline]
     fn shl(self, bits: isize) -> Ball<M> {
-        let (by, steps) = if M::IS_WIDE {
-            (power(bits % STEP), self.steps + (bits / STEP) as i64)
-        } else {
-            (power(bits), 0)
-        };
-        let lost = if M::IS_WIDE { 0.0 } else { TINY };
-        Ball { middle: self.middle.scaled(by), radius: self.radius * by + lost, steps }.normalized()
+        if !M::IS_WIDE {
+            return self * Ball::exact(libm::ldexp(1.0, bits.clamp(-1100, 1100) as i32));
+        }
+        let (by, steps) = (power(bits % STEP), self.steps + (bits / STEP) as i64);
+        Ball { middle: self.middle.scaled(by), radius: self.radius * by, steps }.normalized()
     }
 }
 
@@ -713,7 +709,7 @@ mod tests {
 
     #[test]
     fn what_is_unknown_stays_so() {
-        let around_zero = Wide::exact(1.0) - Wide::exact(1.0) * Wide::rounded(1.0, 1.0);
+        let around_zero = Wide::exact(1.0) - Wide::exact(1.0) * Wide::within(1.0, EPS);
         assert!(!(around_zero > Wide::ZERO) && !(around_zero <= Wide::ZERO) && around_zero != Wide::ZERO);
         assert!((Wide::ONE / around_zero).relative() == f64::INFINITY);
         assert!(Wide::exact(f64::NAN).relative() == f64::INFINITY);
@@ -747,7 +743,7 @@ mod tests {
 
     #[test]
     fn the_better_of_two_is_taken() {
-        let (good, bad) = (Wide::rounded(1e-30, 1.0), Wide::within(0.0, 1e-20));
+        let (good, bad) = (Wide::within(1e-30, 1e-46), Wide::within(0.0, 1e-20));
         assert_eq!(good.or(bad).value(), 1e-30);
         assert_eq!(bad.or(good).value(), 1e-30);
     }

@@ -73,8 +73,8 @@ pub trait Number:
     fn without(self, share: &Self) -> Self;
 }
 
-#[derive(Clone, Copy, Debug)]
 /// Eigenvalues e1 >= e3 > 0 > -l of the dual quadric, sqrt(e1 e3 l), and the heights of the axes W1, W2, W3.
+#[derive(Clone, Copy, Debug)]
 pub struct Principal<T> {
     pub e1: T,
     pub e3: T,

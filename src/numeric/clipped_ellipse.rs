@@ -347,9 +347,10 @@ impl Principal {
             off: (0.0, 0.0, [0.0; 2]),
         };
         // Poles closer to the segment than f64 tells angles apart: nothing is promised.
-        let (sum, _) = segment.irradiance()?;
-        let value = a * b * c * swing / PI * sum;
-        let bound = (64.0 * EPS + 4.0 * noise + 4.0 * disturbed) * value;
+        let (sum, error) = segment.irradiance()?;
+        let scale = a * b * c * swing / PI;
+        let value = scale * sum;
+        let bound = scale * error + (64.0 * EPS + 4.0 * noise + 4.0 * disturbed) * value;
         // As many more digits as the closed form lost the gradient lost of its axes.
         let lost = terms / value;
         let known = e3.min(l) >= GRADED * lost * lost * e1.max(l);

@@ -110,7 +110,8 @@ struct Exact {
 
 impl GradedCone {
     /// The irradiance on a plane with normal +z, and the sum over all inputs x of |x dE/dx|: those of Minv, and by
-    /// `of_light` of dE/dO those of the light. What is `known` is taken over.
+    /// `of_light` of dE/dO those of the light. A `known` sensitivity is taken over, and an irradiance says
+    /// how many digits to begin with.
     pub fn irradiance(&self, known: Known, of_light: impl Fn(&Symmetric) -> Big) -> Irradiance {
         let dark = Irradiance { value: 0.0, bound: 0.0, sensitivity: 0.0 };
         if self.is_below() {
