@@ -125,7 +125,15 @@ impl Segment {
         let mut panels = Panels { left: PANELS, sums: [(0.0, 0.0); N] };
         let anchors = self.anchors(d, rim, lines);
         for (low, high) in anchors.iter().zip(&anchors[1..]) {
-            let end = 0.5 * if low.at <= low.gap { high.at - low.at } else { low.gap - high.gap };
+            let end = 0.5
+                * if low.at == 0.0 {
+                    high.at
+                } else if high.gap == 0.0 {
+                    low.gap
+                } else {
+                    let (cos, sin) = low.turn_to(high);
+                    libm::atan2(sin, cos)
+                };
             for (anchor, by) in [(low, 1.0), (high, -1.0)] {
                 let ([x0, x1, x2], [off0, off1, off2]) = (anchor.poles(by), anchor.off);
                 let poles = [
@@ -146,46 +154,45 @@ impl Segment {
         let top =
             Anchor { at: 0.0, gap: d, line: (1.0, 0.0), points: [middle, middle], off: [off.0, off.0, 0.0] };
         let bottom = Anchor { at: d, gap: 0.0, line: half, points: ends, off: [off.2[0], off.2[1], off.1] };
+        // Where a point is in the plane of the axis or the line is through the middle, all of the line is known by u0.
+        let (cos0, sin0) = middle;
+        let side = if cos0 < 0.0 { -1.0 } else { 1.0 };
+        let twice = (side * 2.0 * sin0 * cos0, side * (cos0 - sin0) * (cos0 + sin0));
+        let within = [
+            ((-side * sin0, side * cos0), [(0.0, -side), (-twice.0, twice.1)], [0.0, 2.0, 1.0]),
+            ((side * sin0, side * cos0), [(twice.0, -twice.1), (0.0, side)], [2.0, 0.0, 1.0]),
+            ((0.0, 1.0), [(sin0, -cos0), (-sin0, cos0)], [1.0, 1.0, 0.0]),
+        ];
+        let from_above = |x: f64| if x < 0.0 { x + PI } else { x };
+        let (down, up) = (top.poles(1.0).map(from_above), bottom.poles(-1.0).map(from_above));
         let mut anchors = vec![top];
-        // And what the angle from the nearer end was rounded by.
-        let both = off.0 + off.1 + 8.0 * EPS;
-        for (k, y) in [(0, rim), (1, rim), (2, lines)] {
-            if !(y < NARROW) {
-                continue;
-            }
-            // By the end that is nearer, from 0..pi.
-            for (end, by) in [(&top, 1.0), (&bottom, -1.0)] {
-                let x = end.poles(by)[k];
-                let x = if x < 0.0 { x + PI } else { x };
-                if !(x > 0.0 && x <= 0.5 * d) {
-                    continue;
-                }
-                let (sin, cos) = libm::sincos(x);
-                let mut anchor = Anchor {
-                    at: end.at + by * x,
-                    gap: end.gap - by * x,
-                    line: turned(end.line, (sin, cos), by),
-                    points: [turned(end.points[0], (sin, cos), -by), turned(end.points[1], (sin, cos), by)],
-                    off: [both; 3],
-                };
-                match k {
-                    0 | 1 => anchor.points[k] = (0.0, anchor.points[k].1.signum()),
-                    _ => anchor.line = (0.0, 1.0),
-                }
-                anchor.off[k] = 0.0;
-                anchors.push(anchor);
+        for (k, (line, points, times)) in within.into_iter().enumerate() {
+            let is_narrow = if k == 2 { lines < NARROW } else { rim < NARROW };
+            // By the end that is nearer.
+            let place = if down[k] > 0.0 && down[k] <= 0.5 * d {
+                Some((down[k], d - down[k]))
+            } else if up[k] > 0.0 && up[k] <= 0.5 * d {
+                Some((d - up[k], up[k]))
+            } else {
+                None
+            };
+            if let (true, Some((at, gap))) = (is_narrow, place) {
+                anchors.push(Anchor { at, gap, line, points, off: times.map(|times| times * off.0) });
             }
         }
-        // By what tells them apart.
-        anchors[1..].sort_by(|a, b| {
-            if a.at <= a.gap && b.at <= b.gap { a.at.total_cmp(&b.at) } else { b.gap.total_cmp(&a.gap) }
-        });
+        anchors[1..].sort_by(|a, b| 0.0f64.total_cmp(&a.turn_to(b).1));
         anchors.push(bottom);
         anchors
     }
 }
 
 impl Anchor {
+    /// Cosine and sine of the angle from this line to another.
+    fn turn_to(&self, other: &Anchor) -> Turn {
+        let ((cos, sin), (to_cos, to_sin)) = (self.line, other.line);
+        (cos * to_cos + sin * to_sin, cos * to_sin - sin * to_cos)
+    }
+
     /// How far from here, up or down by the sign of `by`, the ends are in the plane of the axis, where their cosine is 0, and the line
     /// is through the middle.
     fn poles(&self, by: f64) -> [f64; 3] {
