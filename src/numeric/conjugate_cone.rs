@@ -476,8 +476,10 @@ fn segment<M: Middle>(cone: &Principal<Ball<M>>, szz: &Ball<M>) -> Option<(Segme
         ends: [first, second],
         off: (off_middle, off_half, [off_first, off_second]),
     };
-    // Products of three squares are within f64's.
-    let in_range = [e1, if slim { 1.0 } else { e3 }, if flat { 1.0 } else { l }, segment.along(), half.1]
+    // Products of three squares are within f64's, and lines are no shorter.
+    let e3_or_1 = if slim { 1.0 } else { e3 };
+    let (l_or_1, least_cos) = if flat { (1.0, half.0) } else { (l, 1.0) };
+    let in_range = [e1, e3_or_1, l_or_1, segment.along(), half.1, least_cos]
         .into_iter()
         .all(|x| (1e-99..1e99).contains(&x));
     (in_range && share < 1.0).then_some((segment, unit, share))

@@ -34,9 +34,10 @@ pub type Integral = (f64, f64);
 /// A line from which others are told, so that all that is near it is known relatively.
 #[derive(Clone, Copy)]
 struct Anchor {
-    /// Its angle t, as such and less than d.
+    /// Its angle t, as such and less than d, and how far off the latter may be beside where the poles are.
     at: f64,
     gap: f64,
+    gap_off: f64,
     line: Turn,
     /// Its ends on the rim, at u0 - t and u0 + t.
     points: [Turn; 2],
@@ -142,7 +143,12 @@ impl Segment {
                     Pole { x: x2, y: lines, off: off2 },
                 ];
                 let (above, below) = (libm::sincos(0.5 * (d + anchor.at)), libm::sincos(0.5 * anchor.gap));
-                panels.graded(0.0, end, &poles, &|t| f(anchor.line_at(t, by, above, below)));
+                // The height is that of the rest to d.
+                let height_off = |low: f64, high: f64| {
+                    let rest = anchor.gap - by * if by > 0.0 { high } else { low };
+                    if anchor.gap_off > 0.0 { anchor.gap_off / rest } else { 0.0 }
+                };
+                panels.graded((0.0, end), &poles, &height_off, &|t| f(anchor.line_at(t, by, above, below)));
             }
         }
         (panels.left > 0).then_some(panels.sums)
@@ -151,9 +157,22 @@ impl Segment {
     /// The first line and the last, and between them those by which poles are that f64 would not tell from 0.
     fn anchors(&self, d: f64, rim: f64, lines: f64) -> Vec<Anchor> {
         let &Segment { middle, half, ends, off, .. } = self;
-        let top =
-            Anchor { at: 0.0, gap: d, line: (1.0, 0.0), points: [middle, middle], off: [off.0, off.0, 0.0] };
-        let bottom = Anchor { at: d, gap: 0.0, line: half, points: ends, off: [off.2[0], off.2[1], off.1] };
+        let top = Anchor {
+            at: 0.0,
+            gap: d,
+            gap_off: 0.0,
+            line: (1.0, 0.0),
+            points: [middle, middle],
+            off: [off.0, off.0, 0.0],
+        };
+        let bottom = Anchor {
+            at: d,
+            gap: 0.0,
+            gap_off: 0.0,
+            line: half,
+            points: ends,
+            off: [off.2[0], off.2[1], off.1],
+        };
         // Where a point is in the plane of the axis or the line is through the middle, all of the line is known by u0.
         let (cos0, sin0) = middle;
         let side = if cos0 < 0.0 { -1.0 } else { 1.0 };
@@ -170,14 +189,15 @@ impl Segment {
             let is_narrow = if k == 2 { lines < NARROW } else { rim < NARROW };
             // By the end that is nearer.
             let place = if down[k] > 0.0 && down[k] <= 0.5 * d {
-                Some((down[k], d - down[k]))
+                Some((down[k], d - down[k], off.0 + off.1 + 4.0 * EPS))
             } else if up[k] > 0.0 && up[k] <= 0.5 * d {
-                Some((d - up[k], up[k]))
+                Some((d - up[k], up[k], bottom.off[k]))
             } else {
                 None
             };
-            if let (true, Some((at, gap))) = (is_narrow, place) {
-                anchors.push(Anchor { at, gap, line, points, off: times.map(|times| times * off.0) });
+            if let (true, Some((at, gap, gap_off))) = (is_narrow, place) {
+                let off = times.map(|times| times * off.0);
+                anchors.push(Anchor { at, gap, gap_off, line, points, off });
             }
         }
         anchors[1..].sort_by(|a, b| 0.0f64.total_cmp(&a.turn_to(b).1));
@@ -266,18 +286,24 @@ impl<const N: usize> Panels<N> {
     /// Adds the integral of `f` over low..high within 0..pi, which is singular at the poles only.
     ///
     /// None is within the ellipse about a panel's ends of semi-axes' sum (3.6 + sqrt(3.6^2 - 4))/2 = 3.3. What angles are off by
-    /// counts by the pole's distance from the panel.
-    fn graded(&mut self, low: f64, high: f64, poles: &[Pole; 3], f: &impl Fn(f64) -> [f64; N]) {
+    /// counts by the pole's distance from the panel; `unknown` is what else a panel's integrand may be off by.
+    fn graded(
+        &mut self,
+        (low, high): (f64, f64),
+        poles: &[Pole; 3],
+        unknown: &impl Fn(f64, f64) -> f64,
+        f: &impl Fn(f64) -> [f64; N],
+    ) {
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-        let mut off = QUADRATURE;
+        let mut off = QUADRATURE + unknown(low, high);
         let mut near: Option<f64> = None;
-        for &Pole { x, y, off: unknown } in poles {
+        for &Pole { x, y, off: of_pole } in poles {
             let x = if middle - x > FRAC_PI_2 { x + PI } else { x };
             let distance = libm::hypot(x - low, y) + libm::hypot(x - high, y);
             if !(distance >= FAR * half) {
                 near = Some((x - middle) / half);
             } else {
-                off += ORDER * (unknown + 4.0 * EPS * high) / (0.5 * distance - half);
+                off += ORDER * (of_pole + 4.0 * EPS * high) / (0.5 * distance - half);
             }
         }
         match near {
@@ -291,8 +317,8 @@ impl<const N: usize> Panels<N> {
                 } else {
                     middle
                 };
-                self.graded(low, cut, poles, f);
-                self.graded(cut, high, poles, f);
+                self.graded((low, cut), poles, unknown, f);
+                self.graded((cut, high), poles, unknown, f);
             }
             Some(_) => {}
             // A pole that may be elsewhere leaves its own part out.
