@@ -2,7 +2,7 @@
 //!
 //! The cone is Minv O Minv^T for the dual quadric O of a light, both exact. Every quantity of the closed form has its own
 //! formula in which nothing cancels but for grading, by which an eigenvalue may be 2^-1000 of another, and slivers above the
-//! horizon. The precision grows until two results agree: what rounding decides differs between them, since what is exact is
+//! horizon. The precision grows until three results agree: what rounding decides differs between them, since what is exact is
 //! first scaled by pi to that precision, and what follows from the frame has more digits than that. Powers of two and their likes
 //! have long runs of zeros, which two precisions would round to the same, and differences of a few roundings are often 0 in both.
 
@@ -13,12 +13,14 @@ use super::big::{
 };
 use super::clipped_cone::{Principal, Rim};
 
-/// The first precision in bits, of two words with the one that it must agree with.
+/// The first precision in bits, of two words with the next one that it must agree with.
 const LEAST: usize = 96;
 /// None begins beyond this one. Eigenvalues of f32's extremes differ by 2^2200.
 const MOST: usize = 16384;
 /// From one precision to one that it must agree with: what the coarser one has to be good to.
 const STEP: usize = 32;
+/// So many times in a row: a coarser one may be right by luck, and the finer one then is no better than it looks.
+const AGREEMENTS: usize = 2;
 /// Digits beyond those of a frame, which show what its roundings do.
 const GUARD: usize = 32;
 /// What roundings take of a sum, beside what its terms lose.
@@ -123,9 +125,10 @@ impl GradedCone {
         }
         let sensitivity_of = |attempt: &Attempt| self.sensitivity(&exact, attempt, &of_light);
         let mut before: Option<Attempt> = None;
+        let mut agreed = 0;
         let mut bits = LEAST.max((known.lost() + STEP + SLACK).next_multiple_of(STEP));
         while bits <= MOST {
-            for bits in [bits, bits + STEP] {
+            for bits in [bits, bits + STEP, bits + 2 * STEP] {
                 let start = before.as_ref().map(|before| &before.framed.cone.l);
                 let Some(framed) = Framed::new(&exact, bits, start) else { continue };
                 let Some((value, rim)) = framed.cone.irradiance(&framed.szz, bits + GUARD) else { continue };
@@ -133,8 +136,9 @@ impl GradedCone {
                     continue;
                 }
                 let attempt = Attempt { framed, value, rim, bits };
-                if let Some(before) = &before
-                    && agree(&attempt.value, &before.value, bits - before.bits)
+                let agrees = |before: &Attempt| agree(&attempt.value, &before.value, bits - before.bits);
+                agreed = if before.as_ref().is_some_and(agrees) { agreed + 1 } else { 0 };
+                if let Some(before) = before.as_ref().filter(|_| agreed >= AGREEMENTS)
                     && let Some(sensitivity) = known.sensitivity.or_else(|| {
                         let (finer, coarser) = (sensitivity_of(&attempt)?, sensitivity_of(before)?);
                         ((finer - coarser).abs() <= PERCENT * finer).then_some(finer)
