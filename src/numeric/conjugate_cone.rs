@@ -445,9 +445,11 @@ fn segment<M: Middle>(cone: &Principal<Ball<M>>, szz: &Ball<M>) -> Option<(Segme
     let (cos1, cos2) = both(cos0 * cos_d - sin0 * sin_d, cos0 * cos_d + sin0 * sin_d, cosines);
     let (sin1, sin2) = both(sin0 * cos_d + cos0 * sin_d, sin0 * cos_d - cos0 * sin_d, sines);
 
+    // One of the two may be known to less than the angle is.
     let turn = |cos: Ball<M>, sin: Ball<M>| {
         let off = cos.error() * sin.value().abs() + sin.error() * cos.value().abs();
-        ((cos.value(), sin.value()), off)
+        let length = libm::hypot(cos.value(), sin.value());
+        ((cos.value() / length, sin.value() / length), off)
     };
     let (middle, off_middle) = turn(cos0, sin0);
     let (half, off_half) = turn(cos_d, sin_d);
