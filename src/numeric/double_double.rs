@@ -36,7 +36,8 @@ pub trait Real:
     /// The angle of the point (`x`, self), in -pi..=pi; 0 at the origin. Off by at most two roundings.
     fn atan2(self, x: Self) -> Self;
 
-    /// The inverse hyperbolic sine of |self| <= 1e15: of f64 off by two roundings at most, of [`DoubleDouble`] by 4096, as far as was seen.
+    /// The inverse hyperbolic sine of |self| <= 1e15: of f64 off by two roundings at most, of [`DoubleDouble`] by 4096, as far
+    /// as was seen.
     fn asinh(self) -> Self;
 }
 

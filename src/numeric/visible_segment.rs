@@ -68,7 +68,7 @@ impl Segment {
     pub fn irradiance(&self) -> Option<Integral> {
         let &Segment { e1, e3, l, middle: (cos0, sin0), .. } = self;
         let along = self.along();
-        let [sum] = self.integrate(|line| {
+        let sum = self.integrate(|line| {
             let ((cos, sin), [first, second]) = (line.turn, line.points);
             // |p|^2 = (s^2 + delta)/along with s linear along the line.
             let delta = l * along + cos * cos * e1 * e3;
@@ -88,8 +88,8 @@ impl Segment {
                 arc_over_chord(theta) + libm::tan(0.5 * theta) * cosines * cosines
             };
             [line.height * sin * along / (2.0 * delta * root) * sum]
-        })?;
-        Some(sum)
+        });
+        sum.map(|[sum]| sum)
     }
 
     /// The integrals of h/|p|^4 along the visible rim, h in units of the swing, times cos^2, sin^2, 1, cos sin, cos and sin of u.
@@ -173,6 +173,9 @@ impl Segment {
             points: ends,
             off: [off.2[0], off.2[1], off.1],
         };
+        if !(rim < NARROW || lines < NARROW) {
+            return vec![top, bottom];
+        }
         // Where a point is in the plane of the axis or the line is through the middle, all of the line is known by u0.
         let (cos0, sin0) = middle;
         let side = if cos0 < 0.0 { -1.0 } else { 1.0 };
