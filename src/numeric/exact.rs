@@ -5,6 +5,9 @@
 /// Shewchuk's growing expansion of non-overlapping partial sums (Discrete Comput. Geom. 18, 1997), with the final
 /// rounding corrected for ties. At most 64 terms; they and their sums must stay finite.
 pub fn sum(terms: &[f64]) -> f64 {
+    if let Some(sum) = compensated(terms) {
+        return sum;
+    }
     // Most sums are short.
     if terms.len() <= 24 { sum_in(&mut [0.0; 24], terms) } else { sum_in(&mut [0.0; MOST], terms) }
 }
@@ -20,6 +23,23 @@ pub fn pair(terms: &[f64]) -> (f64, f64) {
 
 /// The most terms that there may be: there are no more partial sums than terms.
 const MOST: usize = 64;
+
+/// The sum in two parts, where what it may be off by does not matter: most sums cancel little.
+///
+/// What n steps round away is at most n 2^-53 of all terms' size, and its own sum off by as much of that.
+fn compensated(terms: &[f64]) -> Option<f64> {
+    let (mut sum, mut rest, mut size) = (0.0, 0.0, 0.0);
+    for &term in terms {
+        let (next, lost) = two_sum(sum, term);
+        (sum, rest, size) = (next, rest + lost, size + term.abs());
+    }
+    let (high, low) = two_sum(sum, rest);
+    let off = OFF * size;
+    (high + (low + off) == high + (low - off)).then_some(high)
+}
+
+/// Twice 64^2 2^-106, for the roundings of the bound and of what it is compared with.
+const OFF: f64 = 1.0 / (1u128 << 93) as f64;
 
 #[inline]
 fn sum_in(partials: &mut [f64], terms: &[f64]) -> f64 {
