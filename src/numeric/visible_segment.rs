@@ -6,7 +6,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::gauss_legendre::{POINTS_16, visit};
+use super::gauss_legendre::{POINTS_4, POINTS_8, POINTS_16, visit};
 use super::spacing::EPS;
 
 /// Cosine and sine of an angle, neither of which has lost its digits by the other.
@@ -68,7 +68,7 @@ impl Segment {
     pub fn irradiance(&self) -> Option<Integral> {
         let &Segment { e1, e3, l, middle: (cos0, sin0), .. } = self;
         let along = self.along();
-        let sum = self.integrate(|line| {
+        let sum = self.integrate(FINE, |line| {
             let ((cos, sin), [first, second]) = (line.turn, line.points);
             // |p|^2 = (s^2 + delta)/along with s linear along the line.
             let delta = l * along + cos * cos * e1 * e3;
@@ -96,7 +96,7 @@ impl Segment {
     /// Where those have signs, errors are those of what has none.
     pub fn rim(&self) -> Option<[Integral; 6]> {
         let &Segment { e1, e3, l, .. } = self;
-        let sums = self.integrate(|line| {
+        let sums = self.integrate(COARSE, |line| {
             let [first, second] = line.points.map(|(cos, sin)| {
                 let q = l + e1 * cos * cos + e3 * sin * sin;
                 let by = line.height / (q * q);
@@ -116,15 +116,16 @@ impl Segment {
         e1 * sin0 * sin0 + e3 * cos0 * cos0
     }
 
-    /// Integrals over t in 0..d of what may be singular where a line or the rim passes through the apex, with their errors.
-    fn integrate<const N: usize>(&self, f: impl Fn(Line) -> [f64; N]) -> Option<[Integral; N]> {
+    /// Integrals over t in 0..d of what may be singular where a line or the rim passes through the apex, with their errors: quadrature
+    /// leaves about that share of them.
+    fn integrate<const N: usize>(&self, share: f64, f: impl Fn(Line) -> [f64; N]) -> Option<[Integral; N]> {
         let &Segment { e1, e3, l, half, .. } = self;
         let d = libm::atan2(half.1, half.0);
         // Complex angles at which the rim's and the lines' squares vanish.
         let rim = libm::asinh(libm::sqrt((l + e3) / (e1 - e3).max(0.0)));
         let lines = libm::asinh(libm::sqrt(l * self.along() / (e1 * e3)));
-        let mut panels = Panels { left: PANELS, sums: [(0.0, 0.0); N] };
         let anchors = self.anchors(d, rim, lines);
+        let mut panels = Panels(Vec::with_capacity(32));
         for (low, high) in anchors.iter().zip(&anchors[1..]) {
             let end = 0.5
                 * if low.at == 0.0 {
@@ -142,16 +143,17 @@ impl Segment {
                     Pole { x: x1, y: rim, off: off1 },
                     Pole { x: x2, y: lines, off: off2 },
                 ];
-                let (above, below) = (libm::sincos(0.5 * (d + anchor.at)), libm::sincos(0.5 * anchor.gap));
                 // The height is that of the rest to d.
                 let height_off = |low: f64, high: f64| {
                     let rest = anchor.gap - by * if by > 0.0 { high } else { low };
                     if anchor.gap_off > 0.0 { anchor.gap_off / rest } else { 0.0 }
                 };
-                panels.graded((0.0, end), &poles, &height_off, &|t| f(anchor.line_at(t, by, above, below)));
+                let (above, below) = (libm::sincos(0.5 * (d + anchor.at)), libm::sincos(0.5 * anchor.gap));
+                let side = Side { anchor, by, above, below };
+                panels.graded((0.0, end), &poles, &height_off, side)?;
             }
         }
-        (panels.left > 0).then_some(panels.sums)
+        Some(panels.integrals(share, f))
     }
 
     /// The first line and the last, and between them those by which poles are that f64 would not tell from 0.
@@ -222,16 +224,28 @@ impl Anchor {
         let [first, second] = self.points;
         [(first, -by), (second, by), (self.line, by)].map(|((cos, sin), moves)| half_turn(moves * cos, sin))
     }
+}
 
-    /// The line that is `t` from here, up or down by the sign of `by`; sines and cosines of half the sum and half the difference of
-    /// d and the anchor's angle. A line is no nearer to d than the anchor's half, so that they keep their digits.
-    fn line_at(&self, t: f64, by: f64, above: (f64, f64), below: (f64, f64)) -> Line {
+/// Lines from an anchor on, up or down by the sign of `by`.
+#[derive(Clone, Copy)]
+struct Side<'a> {
+    anchor: &'a Anchor,
+    by: f64,
+    /// Sines and cosines of half the sum and half the difference of d and the anchor's angle.
+    above: (f64, f64),
+    below: (f64, f64),
+}
+
+impl Side<'_> {
+    /// The line that is `t` from the anchor. It is no nearer to d than half of what the anchor is, so that heights keep their digits.
+    fn line_at(&self, t: f64) -> Line {
+        let Side { anchor, by, above, below } = *self;
         let (sin, cos) = libm::sincos(0.5 * t);
         let turn = (2.0 * sin * cos, 1.0 - 2.0 * sin * sin);
         Line {
             height: 2.0 * (above.0 * cos + by * above.1 * sin) * (below.0 * cos - by * below.1 * sin),
-            turn: turned(self.line, turn, by),
-            points: [turned(self.points[0], turn, -by), turned(self.points[1], turn, by)],
+            turn: turned(anchor.line, turn, by),
+            points: [turned(anchor.points[0], turn, -by), turned(anchor.points[1], turn, by)],
         }
     }
 }
@@ -262,77 +276,127 @@ fn half_turn(y: f64, x: f64) -> f64 {
 
 /// Panels of an integral: three poles at 2^-120 off the real axis take as many, and more are for an arithmetic that does not know
 /// f64's angles.
-const PANELS: u32 = 3 * 2 * 120;
+const MOST: usize = 3 * 2 * 120;
 
-/// Poles that are so near the real axis are anchors.
-const NARROW: f64 = 1.0 / (1u64 << 30) as f64;
+/// Poles that are so near the real axis are anchors: f64's angles tell others to 2^-44 of their distance.
+const NARROW: f64 = 1.0 / (1u64 << 8) as f64;
 
-/// A panel is far from a pole that is so many half lengths from its ends together.
+/// A panel is far from a pole that is so many half lengths from its ends together: on the ellipse of semi-axes' sum rho = 3.3, or
+/// beyond.
 const FAR: f64 = 3.6;
 
 /// The highest order of a pole, at which it amplifies what is off.
 const ORDER: f64 = 4.0;
 
-/// What 16 points are off by where such a pole is on the ellipse of semi-axes' sum rho = 3.3, 32^3/6 rho^-32 = 1.6e-13, twice;
-/// beside which roundings are little.
-const QUADRATURE: f64 = 1.0 / (1u64 << 41) as f64;
+/// Gauss's rules of n points, and what they are off by where such a pole is on that ellipse, (2 n)^3/6 rho^(-2 n) twice; beside which
+/// roundings are little.
+const RULES: [(&[(f64, f64)], f64); 3] = [
+    (&POINTS_4, 1.0 / (1u64 << 6) as f64),
+    (&POINTS_8, 1.0 / (1u64 << 17) as f64),
+    (&POINTS_16, 1.0 / (1u64 << 41) as f64),
+];
+
+/// What a panel may be off by beside the whole: for what is told to 36 bits, and for what is told to a percent, some digits of which
+/// may cancel.
+const FINE: f64 = 1.0 / (1u64 << 45) as f64;
+const COARSE: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// The most that an integrand may be off by.
 const LOST: f64 = 0.01;
 
-struct Panels<const N: usize> {
-    left: u32,
-    sums: [(f64, f64); N],
+/// A part of a side, far from every pole, and what its integrand may be off by.
+struct Panel<'a> {
+    side: Side<'a>,
+    low: f64,
+    high: f64,
+    off: f64,
 }
 
-impl<const N: usize> Panels<N> {
-    /// Adds the integral of `f` over low..high within 0..pi, which is singular at the poles only.
+impl Panel<'_> {
+    /// Integrals by a rule, and of absolute values.
+    fn integrals<const N: usize>(
+        &self,
+        points: &[(f64, f64)],
+        f: &impl Fn(Line) -> [f64; N],
+    ) -> [Integral; N] {
+        let mut sums = [(0.0, 0.0); N];
+        visit(points, self.low, self.high, |t, weight| {
+            for ((sum, size), term) in sums.iter_mut().zip(f(self.side.line_at(t))) {
+                *sum += weight * term;
+                *size += weight * term.abs();
+            }
+        });
+        sums
+    }
+}
+
+struct Panels<'a>(Vec<Panel<'a>>);
+
+impl<'a> Panels<'a> {
+    /// Adds low..high of a side, graded towards the poles, where lines are singular and nowhere else: its ends are within 0..pi.
+    /// Nothing where a panel is not known.
     ///
-    /// None is within the ellipse about a panel's ends of semi-axes' sum (3.6 + sqrt(3.6^2 - 4))/2 = 3.3. What angles are off by
-    /// counts by the pole's distance from the panel; `unknown` is what else a panel's integrand may be off by.
+    /// What angles are off by counts by the pole's distance from the panel; `unknown` is what else a panel's integrand may be off
+    /// by.
     fn graded(
         &mut self,
         (low, high): (f64, f64),
         poles: &[Pole; 3],
         unknown: &impl Fn(f64, f64) -> f64,
-        f: &impl Fn(f64) -> [f64; N],
-    ) {
+        side: Side<'a>,
+    ) -> Option<()> {
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-        let mut off = QUADRATURE + unknown(low, high);
+        let mut off = unknown(low, high);
         let mut near: Option<f64> = None;
         for &Pole { x, y, off: of_pole } in poles {
             let x = if middle - x > FRAC_PI_2 { x + PI } else { x };
-            let distance = libm::hypot(x - low, y) + libm::hypot(x - high, y);
+            // y is no less than 2^-500, or as good as 0.
+            let from = |end: f64| libm::sqrt((x - end) * (x - end) + y * y);
+            let distance = from(low) + from(high);
             if !(distance >= FAR * half) {
                 near = Some((x - middle) / half);
             } else {
                 off += ORDER * (of_pole + 4.0 * EPS * high) / (0.5 * distance - half);
             }
         }
-        match near {
-            Some(place) if self.left > 0 => {
-                self.left -= 1;
-                // 0.3 of it where the pole is near an end, half where it is not.
-                let cut = if place < -0.5 {
-                    low + 0.6 * half
-                } else if place > 0.5 {
-                    high - 0.6 * half
-                } else {
-                    middle
-                };
-                self.graded((low, cut), poles, unknown, f);
-                self.graded((cut, high), poles, unknown, f);
-            }
-            Some(_) => {}
+        let Some(place) = near else {
             // A pole that may be elsewhere leaves its own part out.
-            None if off > LOST => self.left = 0,
-            None => visit(&POINTS_16, low, high, |x, weight| {
-                for ((sum, error), term) in self.sums.iter_mut().zip(f(x)) {
-                    *sum += weight * term;
-                    *error += weight * term.abs() * off;
-                }
-            }),
+            let is_known = off <= LOST && self.0.len() < MOST;
+            self.0.push(Panel { side, low, high, off });
+            return is_known.then_some(());
+        };
+        // 0.3 of it where the pole is near an end, half where it is not.
+        let cut = if place < -0.5 {
+            low + 0.6 * half
+        } else if place > 0.5 {
+            high - 0.6 * half
+        } else {
+            middle
+        };
+        // Two lines that f64 does not tell apart.
+        if !(low < cut && cut < high) {
+            return None;
         }
+        self.graded((low, cut), poles, unknown, side)?;
+        self.graded((cut, high), poles, unknown, side)
+    }
+
+    /// The integrals with their errors. Most panels are next to nothing beside the largest.
+    fn integrals<const N: usize>(&self, share: f64, f: impl Fn(Line) -> [f64; N]) -> [Integral; N] {
+        let coarse: Vec<[Integral; N]> = self.0.iter().map(|panel| panel.integrals(RULES[0].0, &f)).collect();
+        let all: [f64; N] = std::array::from_fn(|k| coarse.iter().map(|sums| sums[k].1).sum());
+        let mut integrals = [(0.0, 0.0); N];
+        for (panel, coarse) in self.0.iter().zip(coarse) {
+            let is_enough = |off: f64| (0..N).all(|k| off * coarse[k].1 <= share * all[k]);
+            let at = RULES[..2].iter().position(|rule| is_enough(rule.1)).unwrap_or(2);
+            let (points, rule_off) = RULES[at];
+            let sums = if at == 0 { coarse } else { panel.integrals(points, &f) };
+            for ((sum, error), (part, size)) in integrals.iter_mut().zip(sums) {
+                *sum += part;
+                *error += size * (panel.off + rule_off);
+            }
+        }
+        integrals
     }
 }
 
