@@ -182,7 +182,7 @@ impl Problem for LtcEllipsoid {
                 2.0 * r[k] * r[k] * axis.dot(by_own * axis)
             })));
             let of_rotation = rotation.sensitivity(solid * by_own);
-            Some((light, of_minv.size(of_light)? + of_rotation))
+            Some((light, of_minv.size(of_light, light.off)? + of_rotation))
         });
         let Some((light, sensitivity)) = found else {
             truth.escalate();

@@ -28,6 +28,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DMat3, DVec3};
 
 use super::exact3;
+use super::graded_cone::PERCENT;
 use super::spacing::EPS;
 use super::twofold::Twofold;
 use super::visible_segment::Segment;
@@ -54,6 +55,9 @@ const GRADED: f64 = 1.0 / (1u128 << 84) as f64;
 
 /// The mean direction's side of the apex is that of any vector inside, by this margin.
 const SIDE: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// What rounded axes leave of a gradient's entries, of the largest.
+const AXES: f64 = 8.0 * EPS;
 
 /// What may remain of changes that cancel.
 const REMAINDER: f64 = 1.0 / (1u64 << 12) as f64;
@@ -82,11 +86,13 @@ pub struct Irradiance {
     pub escalated: bool,
     /// G with dE = sum of G_ij dS_ij, to a percent.
     pub gradient: DMat3,
+    /// What roundings of its axes may make of all changes, x dE/dx for Minv's and the light's components.
+    pub off: f64,
 }
 
 impl Irradiance {
     const NOTHING: Irradiance =
-        Irradiance { value: 0.0, bound: 0.0, escalated: false, gradient: DMat3::ZERO };
+        Irradiance { value: 0.0, bound: 0.0, escalated: false, gradient: DMat3::ZERO, off: 0.0 };
 }
 
 /// First-order changes x dE/dx of an irradiance by some inputs x: of all Minv, say, or all of the light.
@@ -103,11 +109,12 @@ impl Changes {
         self.absolute += changes.abs().element_sum();
     }
 
-    /// The sum of all in absolute value with those of the light, or `None` where their digits are lost: the irradiance
-    /// depends on neither's scale, and so the sums with signs are rounding.
-    pub fn size(self, light: Changes) -> Option<f64> {
+    /// The sum of all in absolute value with those of the light, or `None` where their digits are lost: where they may be `off` by
+    /// more than a percent. The irradiance depends on neither's scale, and so the sums with signs are rounding.
+    pub fn size(self, light: Changes, off: f64) -> Option<f64> {
         let size = self.absolute + light.absolute;
-        (self.sum.abs() <= REMAINDER * size && light.sum.abs() <= REMAINDER * size).then_some(size)
+        let known = off <= PERCENT * size;
+        (known && self.sum.abs() <= REMAINDER * size && light.sum.abs() <= REMAINDER * size).then_some(size)
     }
 }
 
@@ -139,6 +146,11 @@ impl Cone {
         if !(self.minus_det > 1e-200) || (unsure && self.towards.z <= 0.0) {
             return None;
         }
+        // The largest eigenvalue is no less than any entry, and the lesser of the others no more than the root of their product.
+        let least = self.dual[..3].iter().fold(0.0f64, |least, entry| least.max(entry.value().abs()));
+        if self.minus_det < GRADED * GRADED * (least * least * least) {
+            return None;
+        }
         let principal = self.principal(self.minors());
         let Principal { e1, e3, l, gap, axes, .. } = principal;
         // What the entries' error is of the minors that W3 comes from, and of e1.
@@ -156,7 +168,12 @@ impl Cone {
         } else {
             principal.clipped(szz, noise)
         };
-        light.filter(|light| light.bound <= ACCURACY * light.value)
+        let mut light = light.filter(|light| light.bound <= ACCURACY * light.value)?;
+        // Every entry is off by some roundings of the largest. A term of S changes by four times itself with all that it has, and
+        // its other entries have no more terms than twice those of the diagonal.
+        let [x, y, z] = light.gradient.to_cols_array_2d().map(|column| DVec3::from_array(column).abs());
+        light.off = AXES * x.max(y).max(z).max_element() * (4.0 * 3.0 * size);
+        Some(light)
     }
 
     /// The adjugate of S by its minors.
@@ -270,7 +287,7 @@ impl Principal {
         let value = (libm::sqrt(e1 * e3 / gap) * height).min(1.0);
         let bound = (24.0 * EPS + noise + noise / height) * value;
         let gradient = self.gradient(&Integrals::around(self))?;
-        (height > 0.0).then_some(Irradiance { value, bound, escalated: false, gradient })
+        (height > 0.0).then_some(Irradiance { value, bound, escalated: false, gradient, off: 0.0 })
     }
 
     /// The part of a cone that the horizon cuts; `szz` = S_zz > 0.
@@ -334,7 +351,7 @@ impl Principal {
             [[cos1, sin1, q1], [cos2, sin2, q2]],
         ))?;
         if bound <= ACCURACY * value {
-            return Some(Irradiance { value, bound, escalated: false, gradient });
+            return Some(Irradiance { value, bound, escalated: false, gradient, off: 0.0 });
         }
         let segment = Segment {
             e1,
@@ -354,7 +371,7 @@ impl Principal {
         // As many more digits as the closed form lost the gradient lost of its axes.
         let lost = terms / value;
         let known = e3.min(l) >= GRADED * lost * lost * e1.max(l);
-        known.then_some(Irradiance { value, bound, escalated: true, gradient })
+        known.then_some(Irradiance { value, bound, escalated: true, gradient, off: 0.0 })
     }
 
     /// G_ij = dE/dS_ij, from the integrals over the visible rim.

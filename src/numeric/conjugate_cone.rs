@@ -127,11 +127,26 @@ impl<M: Middle> Seen<M> {
         Some(self)
     }
 
-    /// G v, in the world's frame, for a vector in the principal frame.
-    pub fn by(&self, [x, y, z]: Vector<M>) -> Vector<M> {
+    /// G v in the principal frame.
+    pub fn by(&self, [x, y, z]: &Vector<M>) -> Vector<M> {
+        let (x, y, z) = (*x, *y, *z);
         let [xx, yy, zz, xy, xz, yz] = self.gradient;
-        let local = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
-        mapped(&self.axes, &local)
+        [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z]
+    }
+
+    /// Those of the dual quadric.
+    pub fn eigenvalues(&self) -> Vector<M> {
+        [self.cone.e1, self.cone.e3, -self.cone.l]
+    }
+
+    /// A vector of the principal frame in the world's.
+    pub fn in_world(&self, v: &Vector<M>) -> Vector<M> {
+        mapped(&self.axes, v)
+    }
+
+    /// A vector of the world's frame in the principal one.
+    pub fn in_frame(&self, v: &Vector<M>) -> Vector<M> {
+        self.axes.map(|axis| dot(&axis, v))
     }
 }
 
@@ -164,6 +179,14 @@ fn cross<M: Middle>(a: &Vector<M>, b: &Vector<M>) -> Vector<M> {
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
+/// The rows of the inverse of the matrix of these columns, of f32 values.
+pub fn duals<M: Middle>(columns: &[DVec3; 3]) -> [Vector<M>; 3] {
+    let [a, b, c] = *columns;
+    let by_volume = Ball::ONE / Ball::sum(&exact3::determinant_terms(a, b, c), 0.0);
+    let cofactors = products::cofactors(&DMat3::from_cols(a, b, c));
+    cofactors.map(|row| row.map(|minor| Ball::near(minor, 0.0) * by_volume))
+}
+
 /// The matrix of these columns times v.
 fn mapped<M: Middle>(columns: &[Vector<M>; 3], v: &Vector<M>) -> Vector<M> {
     [0, 1, 2].map(|row| columns[0][row] * v[0] + columns[1][row] * v[1] + columns[2][row] * v[2])
@@ -188,8 +211,8 @@ struct Local<M> {
     alpha: Ball<M>,
     beta: Ball<M>,
     kappa: Ball<M>,
-    /// The centre's, in the world.
-    height: Ball<M>,
+    /// Of C, A and B in the world.
+    heights: Vector<M>,
 }
 
 /// The principal frame.
@@ -292,7 +315,7 @@ impl<M: Middle> ConjugateCone<M> {
             alpha: x * x + y * y,
             beta: turn_a * turn_a + turn_b * turn_b,
             kappa: turned[0] * turned[0] + turned[1] * turned[1],
-            height: c[2],
+            heights: [c[2], a[2], b[2]],
         }
     }
 }
@@ -398,13 +421,17 @@ impl<M: Middle> Local<M> {
             [r1 * (cos + of_a * from * g1), r2 * (of_a * from * g2 - sin), root * of_a],
             [r1 * (sin + of_b * from * g1), r2 * (cos + of_b * from * g2), root * of_b],
         ];
+        // Heights of the axes, or what the images' heights say of them: S W_k, of eigenvalue times W_k.
         let heights = self.frame.map(|axis| axis[2]);
+        let [of_c, of_a, of_b] = self.heights;
+        let said = |k: usize| images[1][k] * of_a + images[2][k] * of_b - images[0][k] * of_c;
         let [up, level, middle] = [w1, w2, w3].map(|axis| dot(&axis, &heights));
+        let [up, level, middle] = [up.or(said(0) / e1), level.or(said(1) / e3), middle.or(-said(2) / l)];
         let turned = Ball::up_to(slack * up.hypot(level));
         let [up, level] = [up + turned, level + turned];
         // A low centre says how low the axis through it is.
         let [along_1, along_2, along_3] = images[0];
-        let heights = [up, level, middle.or((self.height - along_1 * up - along_2 * level) / along_3)];
+        let heights = [up, level, middle.or((of_c - along_1 * up - along_2 * level) / along_3)];
         let volume = along * across * z.abs();
         let cone = Principal { e1, e3, l, volume, heights };
         certain.then_some(Framed { cone, axes: [w1, w2, w3], images })
@@ -516,7 +543,7 @@ mod tests {
             assert!((value - expected).abs() <= bound, "{s}: {seen:?} {expected}");
             assert!(bound <= 1e-13 * expected, "{s}: {seen:?}");
             // E = aa/(aa + cc): dE/da over 2 a for each of two axes, and dE/dc.
-            let [of_c, of_a, of_b] = seen.images.map(|image| seen.by(image));
+            let [of_c, of_a, of_b] = seen.images.map(|image| seen.in_world(&seen.by(&image)));
             let slope = s * s * expected * expected;
             for (found, expected) in [(of_c[2], slope / s), (of_a[0], 0.5 * slope), (of_b[1], 0.5 * slope)] {
                 assert!((found.value() / expected - 1.0).abs() < 1e-12, "{s}: {found:?} {expected}");
