@@ -44,9 +44,37 @@ pub fn abs(x: Big) -> Big {
     if x < Big::ZERO { -x } else { x }
 }
 
+/// From one precision to one that it must agree with: what the coarser one has to be good to.
+pub const STEP: usize = 32;
+
+/// Precisions in bits: three that may agree, and then from twice as many.
+pub fn precisions(least: usize, most: usize) -> impl Iterator<Item = usize> {
+    std::iter::successors(Some(least), |bits| Some(2 * bits))
+        .take_while(move |bits| *bits <= most)
+        .flat_map(|bits| [bits, bits + STEP, bits + 2 * STEP])
+}
+
+/// Whether results of growing precision have settled: three in a row agree. A coarser one may be right by luck, and the finer one then
+/// is no better than it looks.
+#[derive(Default)]
+pub struct Settling {
+    before: Option<(Big, usize)>,
+    agreed: u32,
+}
+
+impl Settling {
+    /// Whether they have with this one, of so many bits.
+    pub fn with(&mut self, value: &Big, bits: usize) -> bool {
+        let agrees = |(before, fewer): &(Big, usize)| agree(value, before, bits - fewer);
+        self.agreed = if self.before.as_ref().is_some_and(agrees) { self.agreed + 1 } else { 0 };
+        self.before = Some((value.clone(), bits));
+        self.agreed >= 2
+    }
+}
+
 /// Whether a result and one of `fewer` bits less agree so far that the finer is good to 2^-60: what rounding leaves of it is
 /// 2^-`fewer` of what it leaves of the other. Less than 2^-32 may be chance.
-pub fn agree(finer: &Big, coarser: &Big, fewer: usize) -> bool {
+fn agree(finer: &Big, coarser: &Big, fewer: usize) -> bool {
     let bits = 60usize.saturating_sub(fewer).max(32);
     abs(finer - coarser) << bits as isize <= abs(finer.clone())
 }

@@ -107,12 +107,9 @@ impl<M: Middle> Seen<M> {
 
     /// The same by integrals of what is positive, for cones that the horizon cuts: what is not `known` already.
     pub fn by_lines(mut self, known: &Known) -> Option<Self> {
-        let (segment, unit, share) = segment(&self.cone, &self.szz)?;
-        let Principal { e1, e3, l, heights: [.., z3], .. } = self.cone;
+        let Cut { segment, unit, share, axes: [a, b, c], swing } = Cut::new(&self.cone, self.szz)?;
         let square = unit * unit;
         let within = |(value, error): Integral| Ball::within(value, error + share * value.abs()) / square;
-        let (a, b, c) = (e1.sqrt(), e3.sqrt(), l.sqrt());
-        let swing = (self.szz + l * z3 * z3).sqrt();
         let pi = Ball::pi(53);
         if known.irradiance.is_none() {
             self.value = a * b * c * swing / pi * within(segment.irradiance()?);
@@ -449,69 +446,83 @@ impl<M: Middle> Local<M> {
     }
 }
 
-/// What is above the horizon of a cone that it cuts, with the unit of its squares, and the share that its lengths leave unknown of any
-/// integral: nothing where they leave the range of f64.
-fn segment<M: Middle>(cone: &Principal<Ball<M>>, szz: &Ball<M>) -> Option<(Segment, Ball<M>, f64)> {
-    let &Principal { e1, e3, l, heights: [z1, z2, z3], .. } = cone;
-    let szz = *szz;
-    if !(szz > Ball::ZERO) {
-        return None;
-    }
-    let (m1, m2, m3) = (e1 * z1 * z1, e3 * z2 * z2, l * z3 * z3);
-    let m = (szz + m3).or(m1 + m2);
-    let swing = m.sqrt();
-    let (cos0, sin0) = (z1 * e1.sqrt() / swing, z2 * e3.sqrt() / swing);
-    let (cos_d, sin_d) = (-(z3 * l.sqrt() / swing), szz.sqrt() / swing);
-    // Of sums and differences of u0 and d that which is small is what their product says.
-    let both = |sum: Ball<M>, difference: Ball<M>, product: Ball<M>| {
-        let (sum, difference) = (sum.or(product / difference), difference.or(product / sum));
-        (difference, sum)
-    };
-    let cosines = (m3 - m2).or(m1 - szz) / m;
-    let sines = (m3 - m1).or(m2 - szz) / m;
-    let (cos1, cos2) = both(cos0 * cos_d - sin0 * sin_d, cos0 * cos_d + sin0 * sin_d, cosines);
-    let (sin1, sin2) = both(sin0 * cos_d + cos0 * sin_d, sin0 * cos_d - cos0 * sin_d, sines);
+/// A cone that the horizon cuts.
+struct Cut<M> {
+    /// What is above the horizon, in units of some square.
+    segment: Segment,
+    unit: Ball<M>,
+    /// What lengths leave unknown of any integral, as a share of it.
+    share: f64,
+    /// The roots of e1, e3 and l.
+    axes: [Ball<M>; 3],
+    /// Half of what the heights of its rim differ by.
+    swing: Ball<M>,
+}
 
-    // One of the two may be known to less than the angle is.
-    let turn = |cos: Ball<M>, sin: Ball<M>| {
-        let off = cos.error() * sin.value().abs() + sin.error() * cos.value().abs();
-        let length = libm::hypot(cos.value(), sin.value());
-        ((cos.value() / length, sin.value() / length), off)
-    };
-    let (middle, off_middle) = turn(cos0, sin0);
-    let (half, off_half) = turn(cos_d, sin_d);
-    let (first, off_first) = turn(cos1, sin1);
-    let (second, off_second) = turn(cos2, sin2);
-    // What is not told from 0 beside the rest: l of a cone whose middle is below the horizon, e3 of a needle.
-    let (flat, slim) = (
-        cos_d > Ball::ZERO && l < (e3 * cos_d * cos_d) >> NOTHING,
-        e3 < (l * sin0 * sin0) >> NOTHING && e3 * cos0 * cos0 < (e1 * sin0 * sin0) >> NOTHING,
-    );
-    // No integral is of a higher order than the second in any eigenvalue, nor than the fifth in d.
-    let share = 4.0 * (e1.relative() + e3.relative() + l.relative())
-        + 6.0 * off_half / libm::atan2(half.1, half.0)
-        + 8.0 * libm::ldexp(1.0, -(NOTHING as i32));
-    let least = if flat || (e3 < l && !slim) { e3 } else { l };
-    let most = if e1.is_above(l) { e1 } else { l };
-    let unit = (most * least).sqrt().middle();
-    let share_of = |x: Ball<M>, is_nothing: bool| if is_nothing { 0.0 } else { (x / unit).value() };
-    let [e1, e3, l] = [share_of(e1, false), share_of(e3, slim), share_of(l, flat)];
-    let segment = Segment {
-        e1,
-        e3,
-        l,
-        middle,
-        half,
-        ends: [first, second],
-        off: (off_middle, off_half, [off_first, off_second]),
-    };
-    // Products of three squares are within f64's, and lines are no shorter.
-    let e3_or_1 = if slim { 1.0 } else { e3 };
-    let (l_or_1, least_cos) = if flat { (1.0, half.0) } else { (l, 1.0) };
-    let in_range = [e1, e3_or_1, l_or_1, segment.along(), half.1, least_cos]
-        .into_iter()
-        .all(|x| (1e-99..1e99).contains(&x));
-    (in_range && share < 1.0).then_some((segment, unit, share))
+impl<M: Middle> Cut<M> {
+    /// Nothing where lengths leave the range of f64.
+    fn new(cone: &Principal<Ball<M>>, szz: Ball<M>) -> Option<Self> {
+        let &Principal { e1, e3, l, heights: [z1, z2, z3], .. } = cone;
+        if !(szz > Ball::ZERO) {
+            return None;
+        }
+        let axes = [e1.sqrt(), e3.sqrt(), l.sqrt()];
+        let (m1, m2, m3) = (e1 * z1 * z1, e3 * z2 * z2, l * z3 * z3);
+        let m = (szz + m3).or(m1 + m2);
+        let swing = m.sqrt();
+        let (cos0, sin0) = (z1 * axes[0] / swing, z2 * axes[1] / swing);
+        let (cos_d, sin_d) = (-(z3 * axes[2] / swing), szz.sqrt() / swing);
+        // Of sums and differences of u0 and d that which is small is what their product says.
+        let both = |sum: Ball<M>, difference: Ball<M>, product: Ball<M>| {
+            let (sum, difference) = (sum.or(product / difference), difference.or(product / sum));
+            (difference, sum)
+        };
+        let cosines = (m3 - m2).or(m1 - szz) / m;
+        let sines = (m3 - m1).or(m2 - szz) / m;
+        let (cos1, cos2) = both(cos0 * cos_d - sin0 * sin_d, cos0 * cos_d + sin0 * sin_d, cosines);
+        let (sin1, sin2) = both(sin0 * cos_d + cos0 * sin_d, sin0 * cos_d - cos0 * sin_d, sines);
+
+        // One of the two may be known to less than the angle is.
+        let turn = |cos: Ball<M>, sin: Ball<M>| {
+            let off = cos.error() * sin.value().abs() + sin.error() * cos.value().abs();
+            let length = libm::hypot(cos.value(), sin.value());
+            ((cos.value() / length, sin.value() / length), off)
+        };
+        let (middle, off_middle) = turn(cos0, sin0);
+        let (half, off_half) = turn(cos_d, sin_d);
+        let (first, off_first) = turn(cos1, sin1);
+        let (second, off_second) = turn(cos2, sin2);
+        // What is not told from 0 beside the rest: l of a cone whose middle is below the horizon, e3 of a needle.
+        let (flat, slim) = (
+            cos_d > Ball::ZERO && l < (e3 * cos_d * cos_d) >> NOTHING,
+            e3 < (l * sin0 * sin0) >> NOTHING && e3 * cos0 * cos0 < (e1 * sin0 * sin0) >> NOTHING,
+        );
+        // No integral is of a higher order than the second in any eigenvalue, nor than the fifth in d.
+        let share = 4.0 * (e1.relative() + e3.relative() + l.relative())
+            + 6.0 * off_half / libm::atan2(half.1, half.0)
+            + 8.0 * libm::ldexp(1.0, -(NOTHING as i32));
+        let least = if flat || (e3 < l && !slim) { e3 } else { l };
+        let most = if e1.is_above(l) { e1 } else { l };
+        let unit = (most * least).sqrt().middle();
+        let share_of = |x: Ball<M>, is_nothing: bool| if is_nothing { 0.0 } else { (x / unit).value() };
+        let [e1, e3, l] = [share_of(e1, false), share_of(e3, slim), share_of(l, flat)];
+        let segment = Segment {
+            e1,
+            e3,
+            l,
+            middle,
+            half,
+            ends: [first, second],
+            off: (off_middle, off_half, [off_first, off_second]),
+        };
+        // Products of three squares are within f64's, and lines are no shorter.
+        let e3_or_1 = if slim { 1.0 } else { e3 };
+        let (l_or_1, least_cos) = if flat { (1.0, half.0) } else { (l, 1.0) };
+        let in_range = [e1, e3_or_1, l_or_1, segment.along(), half.1, least_cos]
+            .into_iter()
+            .all(|x| (1e-99..1e99).contains(&x));
+        (in_range && share < 1.0).then_some(Cut { segment, unit, share, axes, swing })
+    }
 }
 
 /// v, which is across the unit vector `axis`: what lies along it most, from the rest, if that is better.

@@ -9,7 +9,8 @@
 use glam::DVec3;
 
 use super::big::{
-    self, Big, Symmetric, Vector, abs, agree, cross, dot, mapped, nearest, root, rounded, times, vector,
+    self, Big, STEP, Settling, Symmetric, Vector, abs, cross, dot, mapped, nearest, root, rounded, times,
+    vector,
 };
 use super::clipped_cone::{Principal, Rim};
 
@@ -17,10 +18,6 @@ use super::clipped_cone::{Principal, Rim};
 const LEAST: usize = 96;
 /// None begins beyond this one. Eigenvalues of f32's extremes differ by 2^2200.
 const MOST: usize = 16384;
-/// From one precision to one that it must agree with: what the coarser one has to be good to.
-const STEP: usize = 32;
-/// So many times in a row: a coarser one may be right by luck, and the finer one then is no better than it looks.
-const AGREEMENTS: usize = 2;
 /// Digits beyond those of a frame, which show what its roundings do.
 const GUARD: usize = 32;
 /// What roundings take of a sum, beside what its terms lose.
@@ -125,31 +122,27 @@ impl GradedCone {
         }
         let sensitivity_of = |attempt: &Attempt| self.sensitivity(&exact, attempt, &of_light);
         let mut before: Option<Attempt> = None;
-        let mut agreed = 0;
-        let mut bits = LEAST.max((known.lost() + STEP + SLACK).next_multiple_of(STEP));
-        while bits <= MOST {
-            for bits in [bits, bits + STEP, bits + 2 * STEP] {
-                let start = before.as_ref().map(|before| &before.framed.cone.l);
-                let Some(framed) = Framed::new(&exact, bits, start) else { continue };
-                let Some((value, rim)) = framed.cone.irradiance(&framed.szz, bits + GUARD) else { continue };
-                if value <= Big::ZERO {
-                    continue;
-                }
-                let attempt = Attempt { framed, value, rim, bits };
-                let agrees = |before: &Attempt| agree(&attempt.value, &before.value, bits - before.bits);
-                agreed = if before.as_ref().is_some_and(agrees) { agreed + 1 } else { 0 };
-                if let Some(before) = before.as_ref().filter(|_| agreed >= AGREEMENTS)
-                    && let Some(sensitivity) = known.sensitivity.or_else(|| {
-                        let (finer, coarser) = (sensitivity_of(&attempt)?, sensitivity_of(before)?);
-                        ((finer - coarser).abs() <= PERCENT * finer).then_some(finer)
-                    })
-                {
-                    let value = nearest(&attempt.value);
-                    return Irradiance { value, bound: 0.5 * f64::EPSILON * value, sensitivity };
-                }
-                before = Some(attempt);
+        let mut settling = Settling::default();
+        let least = LEAST.max((known.lost() + STEP + SLACK).next_multiple_of(STEP));
+        for bits in big::precisions(least, MOST) {
+            let start = before.as_ref().map(|before| &before.framed.cone.l);
+            let Some(framed) = Framed::new(&exact, bits, start) else { continue };
+            let Some((value, rim)) = framed.cone.irradiance(&framed.szz, bits + GUARD) else { continue };
+            if value <= Big::ZERO {
+                continue;
             }
-            bits *= 2;
+            let is_settled = settling.with(&value, bits);
+            let attempt = Attempt { framed, value, rim, bits };
+            if let Some(before) = before.as_ref().filter(|_| is_settled)
+                && let Some(sensitivity) = known.sensitivity.or_else(|| {
+                    let (finer, coarser) = (sensitivity_of(&attempt)?, sensitivity_of(before)?);
+                    ((finer - coarser).abs() <= PERCENT * finer).then_some(finer)
+                })
+            {
+                let value = nearest(&attempt.value);
+                return Irradiance { value, bound: 0.5 * f64::EPSILON * value, sensitivity };
+            }
+            before = Some(attempt);
         }
         Irradiance {
             value: before.map_or(0.0, |before| nearest(&before.value)),

@@ -2,15 +2,16 @@
 //!
 //! The corners are exact, and so is all that is a polynomial of them: the normal a x b of an edge, where it crosses the
 //! horizon, (a x b).y and -(a x b).x up to a factor, and with its length both arguments of every angle. What is left to round
-//! is a root, an angle and a quotient for each edge, and their sum, of which little may remain: the precision grows until two
+//! is a root, an angle and a quotient for each edge, and their sum, of which little may remain: the precision grows until three
 //! results agree. What is exact is first scaled by pi to that precision, which changes nothing but roundings: powers of two and
 //! their likes have long runs of zeros, which two precisions would round to the same. The sum has more digits than its terms, and
 //! shows what their roundings do.
 
-use super::big::{self, Big, Vector, abs, angle, cross, dot, nearest, rounded};
+use super::big::{self, Big, Settling, Vector, abs, angle, cross, dot, nearest, rounded};
 
-/// Precisions in bits, until two agree. Corners that differ by f32's extremes cancel to 2^-1700.
-const PRECISIONS: [usize; 8] = [96, 128, 256, 512, 1024, 2048, 4096, 8192];
+/// The first precision in bits, and the last one to begin with. Corners that differ by f32's extremes cancel to 2^-1700.
+const LEAST: usize = 96;
+const MOST: usize = 8192;
 
 /// Digits of sums beyond those of what is rounded.
 const GUARD: usize = 32;
@@ -76,18 +77,12 @@ pub fn irradiance<const N: usize>(corners: &[Vector; N]) -> Option<f64> {
         }
     }
 
-    let mut before: Option<(Big, usize)> = None;
-    for bits in PRECISIONS {
+    let mut settling = Settling::default();
+    big::precisions(LEAST, MOST).find_map(|bits| {
         let value = sum(&edges, &ways, bits);
-        if let Some((other, fewer)) = &before
-            && (value != Big::ZERO || bits >= ZERO)
-            && big::agree(&value, other, bits - fewer)
-        {
-            return Some(nearest(&abs(value)));
-        }
-        before = Some((value, bits));
-    }
-    None
+        let is_settled = settling.with(&value, bits) && (value != Big::ZERO || bits >= ZERO);
+        is_settled.then(|| nearest(&abs(value)))
+    })
 }
 
 fn sum(edges: &[Edge], ways: &[Way], bits: usize) -> Big {
