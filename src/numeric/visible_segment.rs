@@ -104,7 +104,7 @@ impl Segment {
             });
             // What has a sign is known as its size is; and it is 0 at the pole's foot, where the rest is not.
             let sum = |i: usize| first[i] + second[i];
-            let size = |i: usize| 4.0 * (first[i].abs() + second[i].abs());
+            let size = |i: usize| first[i].abs() + second[i].abs();
             [sum(0), sum(1), sum(2), sum(3), sum(4), sum(5), size(3), size(4), size(5)]
         })?;
         Some(std::array::from_fn(|i| (sums[i].0, if i < 3 { sums[i].1 } else { sums[i + 3].1 })))
