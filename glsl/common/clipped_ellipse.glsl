@@ -11,8 +11,12 @@
 //     F     the whole cone's irradiance, signed: v W3/sqrt(l A B)
 //     turn  = angle(-2 sqrt(l A B szz) W3, t - l szz) in 0..2 pi           t = l (A + B - l) W3^2 - e1 e3 (1 - W3^2)
 //     dphi  = angle(2 v sqrt(szz), t + l szz), between the crossings' azimuths
-//     z, x  = 2 sqrt(szz A e1 k W1^2), l m + k szz + e1^2 W1^2 + e3^2 W2^2      x^2 - z^2 = the square of turn's arguments
-//     y, c  = 2 sqrt(szz B e3 k W2^2), l (m + k W3^2) + e3 (m - k W2^2)
+//     z, x  = 2 sqrt(szz A e1 k W1^2), x^2 = z^2 + the square of turn's arguments
+//     y, c  = 2 sqrt(szz B e3 k W2^2), t + (B + e3) szz
+//
+// All three angles come from one t: where the horizon touches a needle, t is what is left of its terms, and the angles are off
+// together, which their sum does not see. Of sums of positive terms, x = l m + k szz + e1^2 W1^2 + e3^2 W2^2 and
+// c = l (m + k W3^2) + e3 (m - k W2^2), each would be off on its own, half of what fails for rounding.
 //
 // in which the axes occur by k W1^2 = m - e3 (1 - W3^2) and k W2^2 alone: no eigenvector but the mean direction is needed.
 // The differences of antiderivatives are single functions by the addition theorems, so that small, far and circular lights
@@ -27,7 +31,10 @@
 
 const float CLIPPED_TURN = 6.28318530718;
 
-// atanh(z/x)/z = log(sum^2/square)/(2 z) for sum = x + z, square = x^2 - z^2 > 0, z >= 0: within 6e-7. The logarithm is split into
+// No z is less: x divides, and its square has to be in f32's range.
+const float CLIPPED_TINY = 1.0e-18;
+
+// atanh(z/x)/z = log(sum^2/square)/(2 z) for sum = x + z, square = x^2 - z^2 >= 0, z >= CLIPPED_TINY: within 6e-7. The logarithm is split into
 // a power of two 2^n and atanh(r), |r| <= 0.2; for n = 0 it is r = z/x itself.
 float clipped_log_ratio(float x, float z, float square)
 {
@@ -66,12 +73,12 @@ float clipped_ellipse(DiskCone cone, float szz)
     float turn = arctangent_upper(abs(sine), cosine);
     turn = sine > 0.0 ? CLIPPED_TURN - turn : turn;
 
-    float z = root2 * sqrt(A * (e1 * k1));
-    float x = l * m + k * szz + e1 * (e1 * w1) + e3 * (e3 * w2);
-    float first = clipped_log_ratio(x, z, sine * sine + cosine * cosine);
+    float z = max(root2 * sqrt(A * (e1 * k1)), CLIPPED_TINY);
+    float square = sine * sine + cosine * cosine;
+    float first = clipped_log_ratio(sqrt(square + z * z), z, square);
 
     float y = root2 * sqrt(B * (e3 * k2));
-    float c = l * (m + k * w3) + e3 * (m - k2);
+    float c = swing + (B + e3) * szz;
     bool narrow = y <= 1.0e-4 * c;
     float second = (narrow ? 1.0 : arctangent_upper(y, c)) / (narrow ? c : max(y, DISK_SMALLEST));
 

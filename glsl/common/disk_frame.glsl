@@ -24,8 +24,11 @@ const float DISK_ENDLESS = 16384.0;
 // this is taken for this, 2^-43 of the distance or less: the point is on the light, on the side it was.
 const float DISK_TOUCHING = 1.0e-13;
 
-// 2^60, for the area: volumes of lights that the point is on are tiny.
-const float DISK_LARGE = 1.152921504606847e18;
+// 2^80, for the area: volumes of lights that the point is on are tiny.
+const float DISK_LARGE = 1.2089258196146292e24;
+
+// 2^40, for the centre of lights that the point is on, and back.
+const float DISK_NEAR = 1.099511627776e12;
 
 // Of squares of lengths: what is below is 0, and its reciprocal's products with lengths stay in range.
 const float DISK_TINY = 1.0e-25;
@@ -53,13 +56,16 @@ struct DiskScale {
     vec3 cofactor;   // 2^(low - own): of a cofactor, for the images of areas
     float needle;    // 2^(top - middle)
     float thin;      // 2^(low - middle)
+#ifndef DISK_PRINCIPAL
+    vec3 center;     // the light's, 2^40 times: near 0 beside its axes it would leave f32's range
+#endif
 };
 
 // The largest power of two that a needle is taken to be longer than wide, before it is cut.
 const int DISK_NEEDLE = 28;
 
-// Far below what f32 tells apart, and far above where products leave its range.
-const int DISK_THIN = -100;
+// The smallest power of two that f32 has all digits of.
+const int DISK_THIN = -126;
 
 float disk_power(int exponent)
 {
@@ -82,6 +88,15 @@ DiskScale disk_scale(inout mat3 m, inout vec3 c, inout vec3 v1, inout vec3 v2)
     m[0] *= scale.x;
     m[1] *= scale.y;
     m[2] *= scale.z;
+    DiskScale s;
+#ifndef DISK_PRINCIPAL
+    // In two steps, for the power may leave f32's range where the product does not.
+    ivec3 power = 127 + 127 + 127 + 40 - of_light;
+    ivec3 first = power >> 1;
+    precise vec3 center = c * intBitsToFloat(first << 23);
+    center *= intBitsToFloat((power - first) << 23);
+    s.center = center;
+#endif
     scale = disk_powers(127 - of_light);
     c *= scale;
     v1 *= scale;
@@ -91,7 +106,6 @@ DiskScale disk_scale(inout mat3 m, inout vec3 c, inout vec3 v1, inout vec3 v2)
     int top = max(max(both.x, both.y), both.z);
     int low = min(min(both.x, both.y), both.z);
     int middle = both.x + both.y + both.z - top - low;
-    DiskScale s;
     s.image = disk_powers(clamp(both - middle, DISK_THIN, DISK_NEEDLE));
     s.cofactor = disk_powers(max(low - both, DISK_THIN));
     s.needle = disk_power(min(top - middle, DISK_NEEDLE));
@@ -151,8 +165,23 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     float x = lead * along;
     // Most of the centre of a needle that passes the point is along it, and would round what is across; but a share that
     // is nothing would round the rest of the centre.
+#ifdef DISK_PRINCIPAL
     vec3 off = c - (abs(lead) < 1.0 / DISK_ENDLESS ? 0.0 : lead) * before;
     float volume = dot(area, off);
+    float side = volume;
+    bool edge_on = dot(area, c) == 0.0;
+#else
+    // By what the terms of the volume add up to, which is the same either way; 2^40 times, for its sign is more than f32 has of it.
+    vec3 off = c - lead * before;
+    vec3 whole = area * by.center;
+    vec3 rest = area * (DISK_NEAR * off);
+    float of_whole = whole.x + whole.y + whole.z;
+    bool less = abs(whole.x) + abs(whole.y) + abs(whole.z) <= abs(rest.x) + abs(rest.y) + abs(rest.z);
+    float side = less ? of_whole : rest.x + rest.y + rest.z;
+    off = less ? c : off;
+    float volume = side * (1.0 / DISK_NEAR);
+    bool edge_on = of_whole == 0.0;
+#endif
     vec3 moment = cross(off, before);
     float normal_scale = scale_to_one(largest_component(normal));
     normal *= normal_scale;
@@ -166,7 +195,7 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
 
     float near = max(max(abs(y), abs(z)), max(across, abs(x) - along));
     // Edge-on exactly: a product that rounds to 0 alone may be a needle's.
-    f.dark = normal2 < 0.5 || det == 0.0 || (dot(area, c) == 0.0 && abs(z) <= 1.0e-6 * near);
+    f.dark = normal2 < 0.5 || det == 0.0 || (edge_on && abs(z) <= 1.0e-6 * near);
     float end = DISK_ENDLESS * near;
     float inverse_end = 1.0 / max(end, DISK_SMALLEST);
     bool endless = along > end;
@@ -206,7 +235,7 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     f.inverse_h1 = endless ? by_end * by_end : inverse_h1 * back * back;
     f.inverse_split = endless ? by_end * by_end : inverse_split * back * back;
 #endif
-    bool below = (volume < 0.0) != (det < 0.0);
+    bool below = (side < 0.0) != (det < 0.0);
     float apart = max(abs(z) * scale, DISK_TOUCHING);
     apart = below ? -apart : apart;
     f.center = vec3(x * scale, y * scale, apart);
