@@ -283,8 +283,8 @@ fn conjugate<M: Middle>(minv: &[DVec3; 3], light: &[DVec3; 3]) -> Option<Known> 
 fn known<M: Middle>(seen: &Seen<M>, of_minv: &[DVec3; 3], of_light: &[DVec3; 3]) -> Known {
     let [minv, light] = [of_minv, of_light].map(|vectors| vectors.map(conjugate_cone::vector));
     let [center, v1, v2] = seen.images;
-    // In the principal frame, Minv's columns and what of the images belongs to them: their sums may cancel, before what is not
-    // known as well as they.
+    // In the principal frame, Minv's columns and what of the images belongs to them: sums that may cancel, and so come first, before
+    // the gradient, which is not known as well as they.
     let columns = minv.map(|column| seen.in_frame(&column));
     let own = [0, 1, 2]
         .map(|j| [0, 1, 2].map(|i| v1[i] * light[1][j] + v2[i] * light[2][j] - center[i] * light[0][j]));

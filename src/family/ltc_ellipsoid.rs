@@ -182,7 +182,8 @@ impl Problem for LtcEllipsoid {
                 2.0 * r[k] * r[k] * axis.dot(by_own * axis)
             })));
             let of_rotation = rotation.sensitivity(solid * by_own);
-            Some((light, of_minv.size(of_light, light.off)? + of_rotation))
+            // What the radii change goes through the rotation, whose terms are up to twice as many.
+            Some((light, of_minv.size(of_light, 2.0 * light.off)? + of_rotation))
         });
         let Some((light, sensitivity)) = found else {
             truth.escalate();

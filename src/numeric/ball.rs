@@ -236,7 +236,8 @@ impl<M: Middle> Ball<M> {
     /// What is known of a number by two ways: the better.
     pub fn or(self, other: Self) -> Self {
         let (a, b, _) = aligned(self, other);
-        if a.1 <= b.1 { self } else { other }
+        // Of what left the range, nothing is known.
+        if b.1 < a.1 || a.1.is_nan() { other } else { self }
     }
 
     pub fn abs(self) -> Self {

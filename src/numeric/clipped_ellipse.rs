@@ -146,9 +146,10 @@ impl Cone {
         if !(self.minus_det > 1e-200) || (unsure && self.towards.z <= 0.0) {
             return None;
         }
-        // The largest eigenvalue is no less than any entry, and the lesser of the others no more than the root of their product.
-        let least = self.dual[..3].iter().fold(0.0f64, |least, entry| least.max(entry.value().abs()));
-        if self.minus_det < GRADED * GRADED * (least * least * least) {
+        // No entry of the diagonal is larger than the largest eigenvalue, and the lesser of the others is at most the root of
+        // their product.
+        let largest = self.dual[..3].iter().fold(0.0f64, |largest, entry| largest.max(entry.value().abs()));
+        if self.minus_det < GRADED * GRADED * (largest * largest * largest) {
             return None;
         }
         let principal = self.principal(self.minors());
@@ -344,7 +345,7 @@ impl Principal {
         let value = ((heights.dot(contour) + dphi) / TAU).clamp(0.0, 1.0);
         let terms = (heights * contour).abs().element_sum() + dphi.abs();
         // To first order the irradiance changes with the heights alone: the rim's ends are on the horizon.
-        let bound = ((8.0 * EPS + 4.0 * noise) * terms + off.dot(contour.abs())) / TAU;
+        let bound = ((24.0 * EPS + 4.0 * noise) * terms + off.dot(contour.abs())) / TAU;
         let gradient = self.gradient(&Integrals::along(
             (big, small),
             [of_cos, of_sin, of_one],

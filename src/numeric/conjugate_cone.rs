@@ -418,7 +418,7 @@ impl<M: Middle> Local<M> {
             [r1 * (cos + of_a * from * g1), r2 * (of_a * from * g2 - sin), root * of_a],
             [r1 * (sin + of_b * from * g1), r2 * (cos + of_b * from * g2), root * of_b],
         ];
-        // Heights of the axes, or what the images' heights say of them: S W_k, of eigenvalue times W_k.
+        // Heights of the axes, or what the images' heights say of them: that of S W_k is its eigenvalue times that of W_k.
         let heights = self.frame.map(|axis| axis[2]);
         let [of_c, of_a, of_b] = self.heights;
         let said = |k: usize| images[1][k] * of_a + images[2][k] * of_b - images[0][k] * of_c;

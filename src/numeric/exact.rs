@@ -5,20 +5,22 @@
 /// Shewchuk's growing expansion of non-overlapping partial sums (Discrete Comput. Geom. 18, 1997), with the final
 /// rounding corrected for ties. At most 64 terms; they and their sums must stay finite.
 pub fn sum(terms: &[f64]) -> f64 {
-    if let Some(sum) = compensated(terms) {
-        return sum;
-    }
+    compensated(terms).unwrap_or_else(|| remainder(terms))
+}
+
+/// The same of terms that cancel, for which there is no shorter way.
+pub fn remainder(terms: &[f64]) -> f64 {
     // Most sums are short.
     if terms.len() <= 24 { sum_in(&mut [0.0; 24], terms) } else { sum_in(&mut [0.0; MOST], terms) }
 }
 
-/// The same with what that rounding left, rounded: relative error at most 2^-106. At most 63 terms.
+/// The sum with what that rounding left, rounded: relative error at most 2^-106. At most 63 terms.
 pub fn pair(terms: &[f64]) -> (f64, f64) {
     let high = sum(terms);
     let mut rest = [0.0; MOST];
     rest[..terms.len()].copy_from_slice(terms);
     rest[terms.len()] = -high;
-    (high, sum(&rest[..=terms.len()]))
+    (high, remainder(&rest[..=terms.len()]))
 }
 
 /// The most terms that there may be: there are no more partial sums than terms.

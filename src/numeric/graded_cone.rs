@@ -26,6 +26,9 @@ const SLACK: usize = 10;
 /// What must be 0 is 2^-20 of a sensitivity.
 const REMAINDER: isize = 20;
 
+/// Sensitivities of two precisions differ by no more: what both have lost may be alike to a percent.
+const SAME: f64 = 1.0 / (1u64 << 20) as f64;
+
 /// What a sensitivity may be off by.
 pub const PERCENT: f64 = 0.01;
 
@@ -136,7 +139,7 @@ impl GradedCone {
             if let Some(before) = before.as_ref().filter(|_| is_settled)
                 && let Some(sensitivity) = known.sensitivity.or_else(|| {
                     let (finer, coarser) = (sensitivity_of(&attempt)?, sensitivity_of(before)?);
-                    ((finer - coarser).abs() <= PERCENT * finer).then_some(finer)
+                    ((finer - coarser).abs() <= SAME * finer).then_some(finer)
                 })
             {
                 let value = nearest(&attempt.value);
@@ -174,7 +177,7 @@ impl GradedCone {
     }
 
     /// The sum over all inputs of |x dE/dx|; nothing where this precision does not do. An irradiance that depends on
-    /// directions alone does not change with Minv's scale: what remains of the sum over Minv of x dE/dx is rounding.
+    /// directions alone does not change with Minv's scale nor the light's: what remains of either sum of x dE/dx is rounding.
     fn sensitivity(
         &self,
         exact: &Exact,
@@ -197,8 +200,12 @@ impl GradedCone {
         }
         let [xx, yy, zz, xy, xz, yz] =
             [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| dot(&minv[i], &by_gradient[j]));
+        let [own_xx, own_yy, own_zz, own_xy, own_xz, own_yz] = &self.own;
+        let off = (&xy * own_xy + &xz * own_xz + &yz * own_yz) << 1;
+        let of_length = &xx * own_xx + &yy * own_yy + &zz * own_zz + off;
         let sum = (of_minv << 1) + of_light(&[xx, yy, zz, xy, xz, yz]);
-        (abs(of_scale) << REMAINDER <= sum).then(|| nearest(&sum))
+        let is_rounding = |remainder: Big| abs(remainder) << REMAINDER <= sum;
+        (is_rounding(of_scale) && is_rounding(of_length)).then(|| nearest(&sum))
     }
 }
 

@@ -34,7 +34,7 @@ pub fn sum(terms: &[(f64, &Pairs)]) -> Pairs {
         }
         let high = exact::sum(&parts);
         parts[8] = -high;
-        (high, exact::sum(&parts))
+        (high, exact::remainder(&parts))
     })
 }
 
@@ -158,9 +158,9 @@ pub fn transform_pairs(m: &DMat3, points: &[DVec3]) -> Pairs {
         if high.abs() > size / (1u64 << 20) as f64 {
             return (high, error - (high - sum));
         }
-        let high = exact::sum(&terms[..used]);
+        let high = exact::remainder(&terms[..used]);
         terms[used] = -high;
-        (high, exact::sum(&terms[..=used]))
+        (high, exact::remainder(&terms[..=used]))
     })
 }
 

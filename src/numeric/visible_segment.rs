@@ -68,7 +68,7 @@ impl Segment {
     pub fn irradiance(&self) -> Option<Integral> {
         let &Segment { e1, e3, l, middle: (cos0, sin0), .. } = self;
         let along = self.along();
-        let sum = self.integrate(FINE, |line| {
+        let sum = self.integrate(|line| {
             let ((cos, sin), [first, second]) = (line.turn, line.points);
             // |p|^2 = (s^2 + delta)/along with s linear along the line.
             let delta = l * along + cos * cos * e1 * e3;
@@ -96,7 +96,7 @@ impl Segment {
     /// Where those have signs, errors are those of what has none.
     pub fn rim(&self) -> Option<[Integral; 6]> {
         let &Segment { e1, e3, l, .. } = self;
-        let sums = self.integrate(COARSE, |line| {
+        let sums = self.integrate(|line| {
             let [first, second] = line.points.map(|(cos, sin)| {
                 let q = l + e1 * cos * cos + e3 * sin * sin;
                 let by = line.height / (q * q);
@@ -116,9 +116,8 @@ impl Segment {
         e1 * sin0 * sin0 + e3 * cos0 * cos0
     }
 
-    /// Integrals over t in 0..d of what may be singular where a line or the rim passes through the apex, with their errors: quadrature
-    /// leaves about that share of them.
-    fn integrate<const N: usize>(&self, share: f64, f: impl Fn(Line) -> [f64; N]) -> Option<[Integral; N]> {
+    /// Integrals over t in 0..d of what may be singular where a line or the rim passes through the apex, with their errors.
+    fn integrate<const N: usize>(&self, f: impl Fn(Line) -> [f64; N]) -> Option<[Integral; N]> {
         let &Segment { e1, e3, l, half, .. } = self;
         let d = libm::atan2(half.1, half.0);
         // Complex angles at which the rim's and the lines' squares vanish.
@@ -153,10 +152,10 @@ impl Segment {
                 panels.graded((0.0, end), &poles, &height_off, side)?;
             }
         }
-        Some(panels.integrals(share, f))
+        Some(panels.integrals(f))
     }
 
-    /// The first line and the last, and between them those by which poles are that f64 would not tell from 0.
+    /// The first line and the last, and between them those that narrow poles are at.
     fn anchors(&self, d: f64, rim: f64, lines: f64) -> Vec<Anchor> {
         let &Segment { middle, half, ends, off, .. } = self;
         let top = Anchor {
@@ -288,18 +287,16 @@ const FAR: f64 = 3.6;
 /// The highest order of a pole, at which it amplifies what is off.
 const ORDER: f64 = 4.0;
 
-/// Gauss's rules of n points, and what they are off by where such a pole is on that ellipse, (2 n)^3/6 rho^(-2 n) twice; beside which
-/// roundings are little.
+/// Gauss's rules of n points, and more than they are off by where such a pole is on that ellipse: the first term of the error's
+/// expansion, (2 n)^3/6 rho^(-2 n), is a fifth to a third of these. Roundings are little beside them.
 const RULES: [(&[(f64, f64)], f64); 3] = [
-    (&POINTS_4, 1.0 / (1u64 << 6) as f64),
-    (&POINTS_8, 1.0 / (1u64 << 17) as f64),
+    (&POINTS_4, 1.0 / (1u64 << 5) as f64),
+    (&POINTS_8, 1.0 / (1u64 << 16) as f64),
     (&POINTS_16, 1.0 / (1u64 << 41) as f64),
 ];
 
-/// What a panel may be off by beside the whole: for what is told to 36 bits, and for what is told to a percent, some digits of which
-/// may cancel.
-const FINE: f64 = 1.0 / (1u64 << 45) as f64;
-const COARSE: f64 = 1.0 / (1u64 << 20) as f64;
+/// What a panel may be off by beside the whole.
+const SHARE: f64 = 1.0 / (1u64 << 45) as f64;
 
 /// The most that an integrand may be off by.
 const LOST: f64 = 0.01;
@@ -382,12 +379,12 @@ impl<'a> Panels<'a> {
     }
 
     /// The integrals with their errors. Most panels are next to nothing beside the largest.
-    fn integrals<const N: usize>(&self, share: f64, f: impl Fn(Line) -> [f64; N]) -> [Integral; N] {
+    fn integrals<const N: usize>(&self, f: impl Fn(Line) -> [f64; N]) -> [Integral; N] {
         let coarse: Vec<[Integral; N]> = self.0.iter().map(|panel| panel.integrals(RULES[0].0, &f)).collect();
         let all: [f64; N] = std::array::from_fn(|k| coarse.iter().map(|sums| sums[k].1).sum());
         let mut integrals = [(0.0, 0.0); N];
         for (panel, coarse) in self.0.iter().zip(coarse) {
-            let is_enough = |off: f64| (0..N).all(|k| off * coarse[k].1 <= share * all[k]);
+            let is_enough = |off: f64| (0..N).all(|k| off * coarse[k].1 <= SHARE * all[k]);
             let at = RULES[..2].iter().position(|rule| is_enough(rule.1)).unwrap_or(2);
             let (points, rule_off) = RULES[at];
             let sums = if at == 0 { coarse } else { panel.integrals(points, &f) };

@@ -368,6 +368,55 @@ fn low_lights_beside_long_needles_are_cut() {
     assert!((exact - 0.222_650).abs() < 1e-6 && (value - exact).abs() <= 1e-15, "{value} for {exact}");
 }
 
+/// The closed form's roundings add up to eleven of its terms here: its value with 2500 digits.
+#[test]
+fn bounds_cover_roundings() {
+    let row = [
+        78339408.0,
+        -92.43549346923828,
+        -38515.4375,
+        -1.6451706533540666e-12,
+        5389645824.0,
+        -6.255306828073515e-10,
+        5.2515275456244126e-05,
+        430270.6875,
+        -4670759424.0,
+        204524832.0,
+        -2.3582717290082655e-07,
+        1239.3157958984375,
+        -0.22265389561653137,
+        -90658.2734375,
+        -7.60677303007014e-16,
+        -0.0003397292457520962,
+        -30238.21875,
+        65133000.0,
+    ];
+    let truth = truth_of(&row);
+    let off = (truth.values()[0] - 9.606_301_398_665_998_7e-3).abs();
+    // Bounds are told in spacings of f32.
+    assert!(off <= truth.worst_bound() * libm::ldexp(1.0, -30), "{truth:?}: {off:e}");
+}
+
+/// Sensitivities that two precisions have lost alike: difference quotients of the closed form with 2500 digits.
+#[test]
+fn lost_sensitivities_are_not_taken() {
+    let mut row = [0.0; 18];
+    for (at, value) in [
+        (0, 1.4551915228366852e-11),
+        (4, 7.275957614183426e-12),
+        (6, 1.6370477331585063e-38),
+        (8, 9.44473296573929e+21),
+        (9, 1.9342813113834067e+25),
+        (11, 9.5367431640625e-07),
+        (12, 1.4733532313603992e-40),
+        (16, 1.4757395258967641e+20),
+    ] {
+        row[at] = value;
+    }
+    let found = graded(exact3::columns(&row), exact3::columns(&row[CENTER..]), Known::default());
+    assert!((found.sensitivity / 2.26342e-73 - 1.0).abs() < 0.01, "{found:?}");
+}
+
 /// Powers of two and their likes, whose digits end long before those of what is left of them: the closed form with 400 digits
 /// and its difference quotients.
 #[test]
