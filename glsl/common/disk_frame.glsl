@@ -174,10 +174,11 @@ DiskFrame disk_frame(mat3 m, vec3 c, vec3 v1, vec3 v2)
     // By what the terms of the volume add up to, which is the same either way; 2^40 times, for its sign is more than f32 has of it.
     vec3 off = c - lead * before;
     vec3 whole = area * by.center;
-    vec3 rest = area * (DISK_NEAR * off);
+    vec3 rest = area * off;
     float of_whole = whole.x + whole.y + whole.z;
-    bool less = abs(whole.x) + abs(whole.y) + abs(whole.z) <= abs(rest.x) + abs(rest.y) + abs(rest.z);
-    float side = less ? of_whole : rest.x + rest.y + rest.z;
+    float of_rest = rest.x + rest.y + rest.z;
+    bool less = abs(whole.x) + abs(whole.y) + abs(whole.z) <= DISK_NEAR * (abs(rest.x) + abs(rest.y) + abs(rest.z));
+    float side = less ? of_whole : DISK_NEAR * of_rest;
     off = less ? c : off;
     float volume = side * (1.0 / DISK_NEAR);
     bool edge_on = of_whole == 0.0;
