@@ -1,7 +1,7 @@
 /*---
 summary = "The ellipse's own axes in its plane, secular equation by two poles and Halley's step in shares of it; exact horizon"
 source  = "ours; the angle as in Jacobi's method"
-tried   = "What direct.comp says of the frame and the horizon holds here too. Axes in space, cone axes and their principal frame: 123 ns beside 92 of talk2017 and 51 of an empty kernel, on a busy machine. Three rational steps for one and Halley's: 1.12 of the time. The centre's part along the axis left in by the smaller sum of terms, as direct has it: 6.5 for 24 of a million edge lights, but 1.00 to 1.02 of talk2017's time on lavapipe for 0.96; direct_exact takes 0.97 with it"
+tried   = "What direct.comp says of the frame and the horizon holds here too. Axes in space, cone axes and their principal frame: 123 ns beside 92 of talk2017 and 51 of an empty kernel, on a busy machine. Three rational steps for one and Halley's: 1.12 of the time. The centre's part along the axis left in by the smaller sum of terms, as direct has it: 6.5 for 24 of a million edge lights, but 1.00 to 1.02 of talk2017's time on lavapipe for 0.96; direct_exact takes 0.97 to 1.00 with it"
 [[variant]]
 name = "secular_exact"
 defines = { EXACT_HORIZON = 1 }
