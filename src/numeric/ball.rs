@@ -13,7 +13,7 @@ use std::ops::{Add, Div, Mul, Neg, Shl, Shr, Sub};
 
 use super::clipped_cone::{Number, Operand};
 use super::double_double::{DoubleDouble, Real};
-use super::exact::{self, two_sum};
+use super::exact;
 use super::spacing::EPS;
 
 /// Exponents are kept in steps of so many.
@@ -147,11 +147,7 @@ impl<M: Middle> Ball<M> {
 
     /// The sum of at most twelve terms, up to 2^-98 of what they add up to in absolute value.
     pub fn short_sum(terms: &[f64]) -> Self {
-        let (mut sum, mut rest, mut size) = (0.0, 0.0, 0.0);
-        for &term in terms {
-            let (next, lost) = two_sum(sum, term);
-            (sum, rest, size) = (next, rest + lost, size + term.abs());
-        }
+        let (sum, rest, size) = exact::parts(terms);
         let high = sum + rest;
         Ball::near((high, rest - (high - sum)), SUMS * size)
     }

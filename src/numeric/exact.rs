@@ -30,14 +30,21 @@ const MOST: usize = 64;
 ///
 /// What n steps round away is at most n 2^-53 of all terms' size, and its own sum off by as much of that.
 fn compensated(terms: &[f64]) -> Option<f64> {
+    let (sum, rest, size) = parts(terms);
+    let (high, low) = two_sum(sum, rest);
+    let off = OFF * size;
+    (high + (low + off) == high + (low - off)).then_some(high)
+}
+
+/// The sum as it rounds, the sum of what its roundings lose, and that of all absolute values.
+#[inline]
+pub fn parts(terms: &[f64]) -> (f64, f64, f64) {
     let (mut sum, mut rest, mut size) = (0.0, 0.0, 0.0);
     for &term in terms {
         let (next, lost) = two_sum(sum, term);
         (sum, rest, size) = (next, rest + lost, size + term.abs());
     }
-    let (high, low) = two_sum(sum, rest);
-    let off = OFF * size;
-    (high + (low + off) == high + (low - off)).then_some(high)
+    (sum, rest, size)
 }
 
 /// Twice 64^2 2^-106, for the roundings of the bound and of what it is compared with.

@@ -149,18 +149,12 @@ pub fn transform_pairs(m: &DMat3, points: &[DVec3]) -> Pairs {
         }
         let used = 3 * points.len();
         // The errors' own sum is off by 2^-101 of the terms at most, which cancel seldom.
-        let (mut sum, mut error, mut size) = (0.0, 0.0, 0.0);
-        for &term in &terms[..used] {
-            let (next, lost) = two_sum(sum, term);
-            (sum, error, size) = (next, error + lost, size + term.abs());
-        }
+        let (sum, error, size) = exact::parts(&terms[..used]);
         let high = sum + error;
         if high.abs() > size / (1u64 << 20) as f64 {
             return (high, error - (high - sum));
         }
-        let high = exact::remainder(&terms[..used]);
-        terms[used] = -high;
-        (high, exact::remainder(&terms[..=used]))
+        exact::pair(&terms[..used])
     })
 }
 
