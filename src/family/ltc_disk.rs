@@ -14,7 +14,7 @@ use super::problem::{Landmark, Output, Problem, Quantity, Scenario, Truth};
 use crate::catalog::{Field, Type};
 use crate::numeric::ball::{Ball, Middle};
 use crate::numeric::big::{self, Big};
-use crate::numeric::clipped_ellipse::{self, Changes, Cone};
+use crate::numeric::clipped_ellipse::{Changes, Cone};
 use crate::numeric::conjugate_cone::{self, ConjugateCone, Seen, Vector};
 use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::graded_cone::{GradedCone, Irradiance, Known};
@@ -244,7 +244,9 @@ impl Problem for LtcDisk {
         let terms = reach.into_iter().map(|reach| reach * reach).sum();
         let image = [c, a, b].map(|v| DVec3::from_array(v.map(|component| component.value())));
         let found = (Cone { dual, minus_det: volume * volume, towards }).irradiance(terms);
-        let found = found.and_then(|seen| Some((seen, sensitivity(&seen, &minv, &light, &image, scale)?)));
+        let found = found.and_then(|seen| {
+            Some((seen, sensitivity(seen.gradient, &minv, &light, &image, scale, seen.off(terms))?))
+        });
         let Some((seen, sensitivity)) = found else {
             truth.escalate();
             if exact3::height(&minv, light[0]) <= 0.0
@@ -336,16 +338,17 @@ fn graded(minv: [DVec3; 3], light: [DVec3; 3], known: Known) -> Irradiance {
 }
 
 /// The sum over all inputs x of |x dE/dx|, from dE/dS with S = a a^T + b b^T - c c^T of the scaled images; `None` where that
-/// cancels.
+/// cancels, or may be `off` by too much.
 fn sensitivity(
-    seen: &clipped_ellipse::Irradiance,
+    gradient: DMat3,
     minv: &[DVec3; 3],
     light: &[DVec3; 3],
     image: &[DVec3; 3],
     scale: f64,
+    off: f64,
 ) -> Option<f64> {
     let signs = [-2.0, 2.0, 2.0];
-    let by_image = [0, 1, 2].map(|k| signs[k] * scale * (seen.gradient * image[k]));
+    let by_image = [0, 1, 2].map(|k| signs[k] * scale * (gradient * image[k]));
     let (mut of_minv, mut of_light) = (Changes::default(), Changes::default());
     for (column, entries) in minv.iter().enumerate() {
         let by_column: DVec3 = (0..3).map(|k| by_image[k] * light[k][column]).sum();
@@ -355,7 +358,7 @@ fn sensitivity(
         let by_vector = DVec3::from_array(minv.map(|column| column.dot(by_image)));
         of_light.add(*vector * by_vector);
     }
-    of_minv.size(of_light, seen.off)
+    of_minv.size(of_light, off)
 }
 
 /// Centre and conjugate semi-axes after Minv.

@@ -183,7 +183,7 @@ impl Problem for LtcEllipsoid {
             })));
             let of_rotation = rotation.sensitivity(solid * by_own);
             // What the radii change goes through the rotation, whose terms are up to twice as many.
-            Some((light, of_minv.size(of_light, 2.0 * light.off)? + of_rotation))
+            Some((light, of_minv.size(of_light, 2.0 * light.off(terms))? + of_rotation))
         });
         let Some((light, sensitivity)) = found else {
             truth.escalate();

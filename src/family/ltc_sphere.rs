@@ -201,7 +201,7 @@ impl Problem for LtcSphere {
             of_light.add(-2.0 * (by_own * c) * c);
             let trace = by_own.x_axis.x + by_own.y_axis.y + by_own.z_axis.z;
             of_light.add(DVec3::new(2.0 * r * r * trace, 0.0, 0.0));
-            Some((light, of_minv.size(of_light, light.off)?))
+            Some((light, of_minv.size(of_light, light.off(terms))?))
         });
         let Some((light, sensitivity)) = found else {
             truth.escalate();

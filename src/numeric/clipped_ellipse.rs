@@ -86,13 +86,20 @@ pub struct Irradiance {
     pub escalated: bool,
     /// G with dE = sum of G_ij dS_ij, to a percent.
     pub gradient: DMat3,
-    /// What roundings of its axes may make of all changes, x dE/dx for Minv's and the light's components.
-    pub off: f64,
 }
 
 impl Irradiance {
     const NOTHING: Irradiance =
-        Irradiance { value: 0.0, bound: 0.0, escalated: false, gradient: DMat3::ZERO, off: 0.0 };
+        Irradiance { value: 0.0, bound: 0.0, escalated: false, gradient: DMat3::ZERO };
+
+    /// What roundings of the gradient's axes may make of all changes, x dE/dx for Minv's and the light's components, where the terms of
+    /// S_xx, S_yy and S_zz add up to `terms` in absolute value.
+    pub fn off(&self, terms: DVec3) -> f64 {
+        // Every entry is off by some roundings of the largest. A term of S changes by four times itself with all that it has, and
+        // its other entries have no more terms than twice those of the diagonal.
+        let [x, y, z] = self.gradient.to_cols_array_2d().map(|column| DVec3::from_array(column).abs());
+        AXES * x.max(y).max(z).max_element() * (4.0 * 3.0 * terms.element_sum())
+    }
 }
 
 /// First-order changes x dE/dx of an irradiance by some inputs x: of all Minv, say, or all of the light.
@@ -169,12 +176,7 @@ impl Cone {
         } else {
             principal.clipped(szz, noise)
         };
-        let mut light = light.filter(|light| light.bound <= ACCURACY * light.value)?;
-        // Every entry is off by some roundings of the largest. A term of S changes by four times itself with all that it has, and
-        // its other entries have no more terms than twice those of the diagonal.
-        let [x, y, z] = light.gradient.to_cols_array_2d().map(|column| DVec3::from_array(column).abs());
-        light.off = AXES * x.max(y).max(z).max_element() * (4.0 * 3.0 * size);
-        Some(light)
+        light.filter(|light| light.bound <= ACCURACY * light.value)
     }
 
     /// The adjugate of S by its minors.
@@ -288,7 +290,7 @@ impl Principal {
         let value = (libm::sqrt(e1 * e3 / gap) * height).min(1.0);
         let bound = (24.0 * EPS + noise + noise / height) * value;
         let gradient = self.gradient(&Integrals::around(self))?;
-        (height > 0.0).then_some(Irradiance { value, bound, escalated: false, gradient, off: 0.0 })
+        (height > 0.0).then_some(Irradiance { value, bound, escalated: false, gradient })
     }
 
     /// The part of a cone that the horizon cuts; `szz` = S_zz > 0.
@@ -352,7 +354,7 @@ impl Principal {
             [[cos1, sin1, q1], [cos2, sin2, q2]],
         ))?;
         if bound <= ACCURACY * value {
-            return Some(Irradiance { value, bound, escalated: false, gradient, off: 0.0 });
+            return Some(Irradiance { value, bound, escalated: false, gradient });
         }
         let segment = Segment {
             e1,
@@ -372,7 +374,7 @@ impl Principal {
         // As many more digits as the closed form lost the gradient lost of its axes.
         let lost = terms / value;
         let known = e3.min(l) >= GRADED * lost * lost * e1.max(l);
-        known.then_some(Irradiance { value, bound, escalated: true, gradient, off: 0.0 })
+        known.then_some(Irradiance { value, bound, escalated: true, gradient })
     }
 
     /// G_ij = dE/dS_ij, from the integrals over the visible rim.
